@@ -1,0 +1,15 @@
+#pragma once
+
+#include <opencv2/core.hpp>
+
+namespace surefield {
+
+/// One RGB-D frame, colour and depth registered to one camera and undistorted.
+struct Frame {
+  int index = 0;         ///< position in the original sequence, before start and stride
+  double timestamp = 0;  ///< seconds; the original frame index where the dataset has no stamps
+  cv::Mat colour;        ///< CV_8UC3, RGB
+  cv::Mat depth;         ///< CV_32FC1, metres along camera z; 0 where invalid
+};
+
+}  // namespace surefield

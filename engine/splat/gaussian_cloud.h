@@ -1,0 +1,32 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <vector>
+
+namespace surefield {
+
+/// Number of spherical-harmonics coefficients per channel at `degree` (0 to 3): 1, 4, 9, 16.
+constexpr int sh_coefficients(int degree) {
+  return (degree + 1) * (degree + 1);
+}
+
+/// A set of 3D Gaussians in host memory, as optimised (raw, before any activation). All arrays have one entry per
+/// Gaussian. World frame, metres.
+struct GaussianCloud {
+  std::vector<Eigen::Vector3f> means;       ///< centre
+  std::vector<Eigen::Vector3f> log_scales;  ///< ln of the standard deviation along each axis, in metres
+  std::vector<Eigen::Vector4f> rotations;   ///< quaternion w, x, y, z; not necessarily of unit length
+  std::vector<float> opacity_logits;        ///< opacity = 1 / (1 + exp(-logit))
+  int sh_degree = 0;                        ///< 0 to 3
+  /// Spherical harmonics, sh_coefficients(sh_degree) x RGB per Gaussian:
+  /// sh[(i * sh_coefficients(sh_degree) + coefficient) * 3 + channel].
+  std::vector<float> sh;
+
+  std::size_t size() const { return means.size(); }
+
+  /// Sets every array to `count` entries (new ones are zero; rotations become the identity).
+  void resize(std::size_t count);
+};
+
+}  // namespace surefield
