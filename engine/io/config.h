@@ -1,0 +1,110 @@
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <initializer_list>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace YAML {
+class Node;
+}
+
+namespace surefield {
+
+/// Smallest and largest permitted value of a number, both included.
+struct Range {
+  double min = 0;
+  double max = 0;
+};
+
+/// The names of the values of an enumeration (or of any type), in the order in which they are listed to the
+/// user.
+template <typename T>
+using Choices = std::vector<std::pair<std::string, T>>;
+
+/// Typed configuration: modules bind dotted keys to the fields of their settings, and the user's values are
+/// checked before they are stored. What a field holds when it is added is its default.
+///
+///   TrackingSettings tracking;
+///   ConfigSchema schema;
+///   schema.add("tracking.iterations", &tracking.iterations, Range{1, 10000}, "steps per frame");
+///   schema.add("tracking.pose_gradient", &tracking.pose_gradient,
+///              Choices<PoseGradient>{{"full", PoseGradient::full}, {"light", PoseGradient::light}}, "terms
+///              used");
+///   schema.load_file("configs/tum.yaml");
+///   schema.set("tracking.iterations=40");
+///
+/// The fields must outlive the schema and keep their addresses. `help` is one line: meaning and unit.
+class ConfigSchema {
+ public:
+  void add(const std::string& key, int* value, Range range, const std::string& help);
+  void add(const std::string& key, float* value, Range range, const std::string& help);
+  void add(const std::string& key, double* value, Range range, const std::string& help);
+  void add(const std::string& key, bool* value, const std::string& help);
+  void add(const std::string& key, std::string* value, const std::string& help);
+
+  /// A list of exactly as many numbers as `value` holds now, each within `range`.
+  void add(const std::string& key, std::vector<double>* value, Range range, const std::string& help);
+
+  /// A string out of a list of names.
+  void add(const std::string& key, std::string* value, const std::vector<std::string>& names,
+           const std::string& help);
+
+  /// An enumeration, given by name. The field must hold one of the listed values.
+  template <typename T>
+  void add(const std::string& key, T* value, const Choices<T>& choices, const std::string& help);
+
+  /// Reads a YAML file; nested maps are dotted keys. A top-level key `base` names a file, relative to this
+  /// one, that is read first. Throws InputError with file, line and key for an unknown key (with the nearest
+  /// known one), a key given twice, and a value of the wrong type or out of range; fields read before it keep
+  /// their new values.
+  void load_file(const std::filesystem::path& file);
+
+  /// Sets one value from "key=value", as given on a command line; lists are written [1, 2, 3]. Throws
+  /// InputError.
+  void set(const std::string& assignment);
+
+  /// The effective configuration as YAML that load_file accepts: every key in the order in which it was added
+  /// (grouped by section), each with its help as a comment.
+  std::string dump() const;
+
+ private:
+  /// Stores a value; throws ConfigValueError (config.cpp) that says what was expected.
+  using Parser = std::function<void(const YAML::Node&)>;
+
+  struct Entry {
+    std::string key;
+    std::string help;
+    bool is_list = false;
+    Parser parse;
+    std::function<std::string()> print;  ///< the current value as YAML
+  };
+
+  void add_entry(Entry entry);
+  void add_choice(const std::string& key, const std::vector<std::string>& names,
+                  std::function<void(std::size_t)> store, std::function<std::size_t()> load,
+                  const std::string& help);
+  const Entry* find(const std::string& key) const;
+  std::string unknown_key(const std::string& key) const;
+
+  std::vector<Entry> entries_;
+
+  friend class ConfigFile;
+};
+
+template <typename T>
+void ConfigSchema::add(const std::string& key, T* value, const Choices<T>& choices, const std::string& help) {
+  std::vector<std::string> names;
+  for (const auto& choice : choices) names.push_back(choice.first);
+  auto store = [value, choices](std::size_t i) { *value = choices[i].second; };
+  auto load = [value, choices] {
+    std::size_t i = 0;
+    while (i < choices.size() && choices[i].second != *value) ++i;
+    return i;
+  };
+  add_choice(key, names, store, load, help);
+}
+
+}  // namespace surefield

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <filesystem>
+#include <opencv2/core.hpp>
+
+#include "engine/splat/camera.h"
+
+namespace surefield {
+
+/// How the numbers of a stored depth image are to be read.
+struct DepthEncoding {
+  double unit = 0.001;    ///< metres for one step
+  int invalid_value = 0;  ///< a stored value that means "no measurement", besides 0
+};
+
+/// Reads an 8-bit colour image as CV_8UC3, RGB. Throws InputError when the file is missing or damaged,
+/// truncated JPEG files included.
+cv::Mat read_colour(const std::filesystem::path& file);
+
+/// Reads a 16-bit depth PNG as CV_32FC1, metres, 0 where invalid. Throws InputError when the file is missing,
+/// damaged or not 16-bit with one channel.
+cv::Mat read_depth(const std::filesystem::path& file, const DepthEncoding& encoding);
+
+/// Writes a CV_32FC1 or CV_32FC3 (RGB) image as an uncompressed 32-bit float TIFF; every bit survives, NaN
+/// included. Throws InputError when the type is another or the file cannot be written.
+void write_tiff(const std::filesystem::path& file, const cv::Mat& image);
+
+/// Reads what write_tiff wrote (32-bit float, 1 or 3 channels, RGB). Throws InputError otherwise.
+cv::Mat read_tiff(const std::filesystem::path& file);
+
+/// Writes a PNG: CV_8UC1, CV_8UC3 (RGB) or CV_16UC1 as they are; CV_32FC1 and CV_32FC3 (RGB) hold values in
+/// [0, 1] and are clamped and rounded to 8 bits (NaN becomes 0). Throws InputError when the type is another
+/// or the file cannot be written.
+void write_png(const std::filesystem::path& file, const cv::Mat& image);
+
+/// Reads a camera from JSON: numbers width, height, fx, fy, cx, cy (pixels) and world_to_camera, four rows of
+/// four numbers (metres). Throws InputError naming the key that is missing or wrong, also where the rotation
+/// is none.
+Camera read_camera(const std::filesystem::path& file);
+
+}  // namespace surefield
