@@ -1,0 +1,108 @@
+#pragma once
+
+#include <vulkan/vulkan.h>
+
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <vector>
+
+namespace surefield::gpu {
+
+/// How to choose and open a device.
+struct DeviceOptions {
+  /// Index or part of a name, as `surefield devices` prints them. Empty: the first discrete GPU, else an
+  /// integrated one, else any other, CPU last.
+  std::string selector;
+  /// Turn on the Khronos validation layer with synchronisation validation; its messages are collected.
+  bool validate = false;
+  /// Bind with descriptor sets from a pool even where the device has push descriptors (for tests of that
+  /// fallback).
+  bool force_descriptor_pool = false;
+};
+
+/// What `surefield devices` prints about one device.
+struct DeviceReport {
+  uint32_t index = 0;
+  std::string name;
+  std::string type;    ///< "discrete GPU", "integrated GPU", "virtual GPU", "CPU" or "other"
+  std::string driver;  ///< driver name and version
+  uint32_t api_major = 0, api_minor = 0;
+  uint32_t subgroup_size = 0;
+  uint64_t memory_bytes = 0;         ///< size of the largest device-local heap
+  std::vector<std::string> missing;  ///< required features that the device lacks; empty: usable
+};
+
+/// All Vulkan devices of this machine, in the loader's order. Throws Error(NoDevice) when there is no Vulkan
+/// at all.
+std::vector<DeviceReport> list_devices();
+
+/// The limits that shape kernels and buffers.
+struct DeviceLimits {
+  uint32_t subgroup_size = 0;          ///< every pipeline is created for this size
+  uint32_t workgroup_invocations = 0;  ///< largest workgroup
+  uint32_t workgroups_x = 0;           ///< largest dispatch in x
+  uint32_t shared_memory_bytes = 0;
+  uint64_t storage_range_bytes = 0;  ///< largest storage-buffer binding
+  uint64_t storage_offset_alignment = 0;
+  double timestamp_ns = 0;  ///< nanoseconds per timestamp tick; 0: no timestamps
+  bool push_descriptors = false;
+  bool require_subgroup_size = false;  ///< the device has several sizes: pipelines must ask for subgroup_size
+  bool is_cpu = false;                 ///< a software implementation
+};
+
+/// An open Vulkan device with one compute queue. Submission is serialised, so several threads may use it.
+class Device {
+ public:
+  /// Opens the device that `options` select. Throws Error(NoDevice) or Error(MissingFeature).
+  explicit Device(const DeviceOptions& options = {});
+  ~Device();
+  Device(const Device&) = delete;
+  Device& operator=(const Device&) = delete;
+
+  const DeviceReport& report() const { return report_; }
+  const DeviceLimits& limits() const { return limits_; }
+  VkDevice handle() const { return device_; }
+  uint32_t queue_family() const { return queue_family_; }
+  PFN_vkCmdPushDescriptorSetKHR push_descriptor_set() const { return push_descriptor_set_; }
+
+  /// Submits a command buffer and waits until it has finished.
+  void submit_and_wait(VkCommandBuffer commands);
+
+  /// Index of a memory type among `type_bits` with all of `flags`. Throws Error(MissingFeature).
+  uint32_t memory_type(uint32_t type_bits, VkMemoryPropertyFlags flags) const;
+
+  /// Accounting of device memory, called by Buffer.
+  void count_memory(int64_t bytes);
+  uint64_t memory_in_use() const { return memory_in_use_; }
+  uint64_t memory_peak() const { return memory_peak_; }
+
+  /// Messages of the validation layer so far (only with DeviceOptions::validate).
+  std::vector<std::string> validation_messages() const;
+
+ private:
+  void create_logical_device();
+  void destroy();
+
+  struct Validation;
+  std::unique_ptr<Validation> validation_;
+  VkInstance instance_ = VK_NULL_HANDLE;
+  VkDebugUtilsMessengerEXT messenger_ = VK_NULL_HANDLE;
+  VkPhysicalDevice physical_ = VK_NULL_HANDLE;
+  VkDevice device_ = VK_NULL_HANDLE;
+  VkQueue queue_ = VK_NULL_HANDLE;
+  uint32_t queue_family_ = 0;
+  PFN_vkCmdPushDescriptorSetKHR push_descriptor_set_ = nullptr;
+  VkPhysicalDeviceMemoryProperties memory_{};
+  DeviceReport report_;
+  DeviceLimits limits_;
+  std::mutex queue_mutex_;
+  std::atomic<uint64_t> memory_in_use_{0};
+  std::atomic<uint64_t> memory_peak_{0};
+};
+
+}  // namespace surefield::gpu

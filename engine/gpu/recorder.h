@@ -1,0 +1,97 @@
+#pragma once
+
+#include <string>
+#include <unordered_set>
+#include <vector>
+
+#include "engine/gpu/pass.h"
+
+namespace surefield::gpu {
+
+/// Arguments of an indirect dispatch, as a pass writes them: workgroups in x, y, z.
+using DispatchArgs = glsl::uvec3;
+
+/// Device time of one recorded dispatch.
+struct PassTime {
+  const char* pass;
+  double milliseconds;
+};
+
+/// Records passes, fills and copies into one command buffer and submits it. A memory barrier is put in
+/// wherever a pass touches what an earlier one wrote, or writes what an earlier one read, as their binding
+/// tables tell.
+class Recorder {
+ public:
+  explicit Recorder(Device& device);
+  ~Recorder();
+  Recorder(const Recorder&) = delete;
+
+  /// Times every later dispatch of this recorder; submit() then returns the times.
+  void enable_timestamps(uint32_t capacity = 4096);
+
+  /// Dispatches `groups_x` x `groups_y` workgroups. Zero groups record nothing.
+  template <class P>
+  void dispatch(const Pass<P>& pass, uint32_t groups_x, uint32_t groups_y,
+                const typename P::Bindings& bindings, const typename P::Params& params) {
+    if (groups_x == 0 || groups_y == 0) return;
+    const auto slices = P::slices(bindings);
+    prepare(pass, slices, &params, nullptr);
+    run(pass, groups_x, groups_y);
+  }
+  template <class P>
+  void dispatch(const Pass<P>& pass, uint32_t groups, const typename P::Bindings& bindings,
+                const typename P::Params& params) {
+    dispatch(pass, groups, 1, bindings, params);
+  }
+
+  /// Dispatches as many workgroups as entry `index` of `args` says when the device gets there.
+  template <class P>
+  void dispatch_indirect(const Pass<P>& pass, const Array<DispatchArgs>& args, uint32_t index,
+                         const typename P::Bindings& bindings, const typename P::Params& params) {
+    const auto slices = P::slices(bindings);
+    prepare(pass, slices, &params, &args.buffer());
+    run_indirect(pass, args.buffer(), index * sizeof(DispatchArgs));
+  }
+
+  /// Sets every 32-bit word of a range to `value`.
+  void fill(const Slice& range, uint32_t value);
+  template <class T>
+  void fill(const Array<T>& array, uint64_t count, uint32_t value) {
+    if (count) fill({&array.buffer(), 0, count * sizeof(T)}, value);
+  }
+
+  /// Copies `source.bytes` bytes.
+  void copy(const Slice& source, const Slice& target);
+
+  /// Copies between raw handles without tracking; for staging buffers, alone in their recorder.
+  void copy_raw(VkBuffer source, uint64_t source_offset, VkBuffer target, uint64_t target_offset,
+                uint64_t bytes);
+
+  /// Submits everything recorded and waits. Returns the times of the dispatches if timestamps are on. The
+  /// recorder is empty afterwards and can be used again.
+  std::vector<PassTime> submit();
+
+ private:
+  void begin();
+  void prepare(const Pipeline& pass, std::span<const Slice> slices, const void* params,
+               const Buffer* indirect);
+  void bind(const Pipeline& pass, std::span<const Slice> slices);
+  VkDescriptorSet allocate_set(VkDescriptorSetLayout layout);
+  void run(const Pipeline& pass, uint32_t groups_x, uint32_t groups_y);
+  void run_indirect(const Pipeline& pass, const Buffer& args, uint64_t offset);
+  void timestamp(const char* pass);
+  void touch(std::span<const VkBuffer> reads, std::span<const VkBuffer> writes);
+  std::vector<PassTime> read_times();
+
+  Device& device_;
+  VkCommandPool pool_ = VK_NULL_HANDLE;
+  VkCommandBuffer commands_ = VK_NULL_HANDLE;
+  std::vector<VkDescriptorPool> descriptor_pools_;
+  std::unordered_set<VkBuffer> read_;     ///< read since the last barrier
+  std::unordered_set<VkBuffer> written_;  ///< written since the last barrier
+  VkQueryPool queries_ = VK_NULL_HANDLE;
+  uint32_t query_capacity_ = 0;
+  std::vector<const char*> timed_;
+};
+
+}  // namespace surefield::gpu

@@ -1,0 +1,35 @@
+#include "tests/support/device.h"
+
+#include <cstdio>
+#include <cstdlib>
+#include <memory>
+
+namespace surefield::testing {
+
+namespace {
+
+/// Ends the process with an error when the validation layer had something to say.
+struct CheckedDevice {
+  gpu::Device device;
+
+  explicit CheckedDevice(const gpu::DeviceOptions& options) : device(options) {}
+  ~CheckedDevice() {
+    const auto messages = device.validation_messages();
+    for (const auto& message : messages) std::fprintf(stderr, "validation: %s\n", message.c_str());
+    if (!messages.empty()) std::_Exit(3);
+  }
+};
+
+}  // namespace
+
+gpu::Device& device() {
+  static const auto checked = [] {
+    gpu::DeviceOptions options;
+    if (const char* selector = std::getenv("SUREFIELD_DEVICE")) options.selector = selector;
+    options.validate = true;
+    return std::make_unique<CheckedDevice>(options);
+  }();
+  return checked->device;
+}
+
+}  // namespace surefield::testing
