@@ -1,0 +1,116 @@
+#include "engine/synth/synthetic_dataset.h"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "engine/io/error.h"
+
+using namespace surefield;
+using Eigen::Vector3d;
+
+namespace {
+
+/// What remains after pixels of one frame are moved into another one by the true poses.
+struct WarpResiduals {
+  std::vector<double>
+      depth;  ///< |measured - predicted| in metres, pixels hidden in the second frame left out
+  std::vector<double> colour;  ///< mean over the channels, in 8-bit steps
+  int hidden = 0;              ///< pixels whose place in the second frame shows something else
+};
+
+/// 1 / (interpolated inverse depth): exact on planes, whose inverse depth is linear in the image. 0 where the
+/// four neighbours do not lie on one surface.
+double interpolated_depth(const cv::Mat& depth, double u, double v) {
+  const int x = static_cast<int>(u), y = static_cast<int>(v);
+  const double a = depth.at<float>(y, x), b = depth.at<float>(y, x + 1);
+  const double c = depth.at<float>(y + 1, x), d = depth.at<float>(y + 1, x + 1);
+  if (std::max({a, b, c, d}) - std::min({a, b, c, d}) > 0.05 * a) return 0;
+  return 1 / std::lerp(std::lerp(1 / a, 1 / b, u - x), std::lerp(1 / c, 1 / d, u - x), v - y);
+}
+
+WarpResiduals warp(const SyntheticDataset& dataset, int from, int to) {
+  const Frame source = *dataset.load(from).frame, target = *dataset.load(to).frame;
+  const Trajectory& truth = *dataset.ground_truth();
+  const Pose motion = truth[to].camera_to_world.inverse() * truth[from].camera_to_world;
+  const Intrinsics k = dataset.intrinsics();
+  WarpResiduals residuals;
+  for (int v = 0; v < k.height; ++v) {
+    for (int u = 0; u < k.width; ++u) {
+      const double z = source.depth.at<float>(v, u);
+      const Vector3d moved = motion * Vector3d((u - k.cx) / k.fx * z, (v - k.cy) / k.fy * z, z);
+      const double x = k.fx * moved.x() / moved.z() + k.cx, y = k.fy * moved.y() / moved.z() + k.cy;
+      if (!(x >= 0 && y >= 0 && x < k.width - 1 && y < k.height - 1)) continue;
+      const double measured = interpolated_depth(target.depth, x, y);
+      if (measured < 0.95 * moved.z()) {
+        ++residuals.hidden;
+        continue;
+      }
+      residuals.depth.push_back(std::abs(measured - moved.z()));
+      const auto& before = source.colour.at<cv::Vec3b>(v, u);
+      const auto& after = target.colour.at<cv::Vec3b>(cvRound(y), cvRound(x));
+      residuals.colour.push_back(cv::norm(cv::Vec3d(before) - cv::Vec3d(after), cv::NORM_L1) / 3);
+    }
+  }
+  return residuals;
+}
+
+double percentile(std::vector<double> values, double fraction) {
+  const auto at =
+      values.begin() + static_cast<std::ptrdiff_t>(fraction * static_cast<double>(values.size() - 1));
+  std::nth_element(values.begin(), at, values.end());
+  return *at;
+}
+
+}  // namespace
+
+TEST_CASE("the true poses carry the pixels of a frame onto the same surfaces five frames later") {
+  const SyntheticDataset dataset;
+  const WarpResiduals residuals = warp(dataset, 10, 15);
+  const double total = 320.0 * 240.0;
+  CHECK(static_cast<double>(residuals.depth.size()) > 0.75 * total);
+  CHECK(residuals.hidden < 0.1 * total);
+  CHECK(percentile(residuals.depth, 0.5) < 1e-5);
+  CHECK(percentile(residuals.depth, 0.9) < 1e-3);
+  CHECK(percentile(residuals.colour, 0.5) < 6);
+}
+
+TEST_CASE("the frames are textured and neither dark nor burnt out") {
+  const SyntheticDataset dataset;
+  for (const int i : {0, 30, 59}) {
+    const Frame frame = *dataset.load(i).frame;
+    cv::Scalar mean, deviation;
+    cv::meanStdDev(frame.colour, mean, deviation);
+    for (int c = 0; c < 3; ++c) {
+      CHECK(mean[c] > 50);
+      CHECK(mean[c] < 200);
+      CHECK(deviation[c] > 20);
+    }
+    CHECK(cv::countNonZero((frame.depth > 0.3) & (frame.depth < 6.5)) == 320 * 240);
+  }
+}
+
+TEST_CASE("frames, stamps and the true trajectory agree") {
+  const SyntheticDataset dataset({.width = 32, .height = 24, .frames = 4, .seed = 7});
+  CHECK(dataset.size() == 4);
+  CHECK(dataset.intrinsics().cx == doctest::Approx(15.5));
+  REQUIRE(dataset.ground_truth() != nullptr);
+  REQUIRE(dataset.ground_truth()->size() == 4);
+  for (int i = 0; i < dataset.size(); ++i) {
+    const LoadedFrame loaded = dataset.load(i);
+    REQUIRE(loaded.frame.has_value());
+    CHECK(loaded.problem.empty());
+    CHECK(loaded.frame->index == i);
+    CHECK(loaded.frame->timestamp == dataset.timestamp(i));
+    CHECK(loaded.frame->colour.size() == cv::Size(32, 24));
+    CHECK(dataset.ground_truth()->at(i).timestamp == dataset.timestamp(i));
+    CHECK(dataset.ground_truth()->at(i).is_finite());
+  }
+}
+
+TEST_CASE("a sequence without pixels or frames is refused") {
+  CHECK_THROWS_AS(SyntheticDataset({.width = 0}), InputError);
+  CHECK_THROWS_AS(SyntheticDataset({.frames = 0}), InputError);
+}
