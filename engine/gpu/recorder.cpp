@@ -225,6 +225,7 @@ std::vector<PassTime> Recorder::submit() {
   device_.submit_and_wait(commands_);
   auto times = read_times();
 
+  retired_.clear();
   read_.clear();
   written_.clear();
   for (VkDescriptorPool pool : descriptor_pools_) vkResetDescriptorPool(device_.handle(), pool, 0);

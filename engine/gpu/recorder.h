@@ -1,7 +1,9 @@
 #pragma once
 
+#include <algorithm>
 #include <string>
 #include <unordered_set>
+#include <utility>
 #include <vector>
 
 #include "engine/gpu/pass.h"
@@ -63,6 +65,17 @@ class Recorder {
   /// Copies `source.bytes` bytes.
   void copy(const Slice& source, const Slice& target);
 
+  /// Grows `array` to at least `count` entries (by half at least, contents are lost) while work is being
+  /// recorded: what was recorded before goes on using the old memory, which lives until it has been
+  /// submitted.
+  template <class T>
+  void reserve(Array<T>& array, uint64_t count) {
+    if (count <= array.capacity()) return;
+    Array<T> larger(device_, array.buffer().name(), std::max(count, array.capacity() + array.capacity() / 2));
+    std::swap(array, larger);
+    retired_.push_back(std::move(larger.buffer()));
+  }
+
   /// Copies between raw handles without tracking; for staging buffers, alone in their recorder.
   void copy_raw(VkBuffer source, uint64_t source_offset, VkBuffer target, uint64_t target_offset,
                 uint64_t bytes);
@@ -92,6 +105,7 @@ class Recorder {
   VkQueryPool queries_ = VK_NULL_HANDLE;
   uint32_t query_capacity_ = 0;
   std::vector<const char*> timed_;
+  std::vector<Buffer> retired_;  ///< replaced by reserve(), perhaps in use by what has been recorded
 };
 
 }  // namespace surefield::gpu
