@@ -16,7 +16,7 @@ enum class SceneKind {
   at_border,          ///< around the image border; some beyond the clamp of the tangents
   larger_than_image,  ///< standard deviations of about the width of the image
   low_opacity,        ///< opacities of 0.0005 to 0.02, around the 1/255 cut
-  high_opacity,  ///< opacities of 0.97 to 0.9999, around the 0.99 clamp; large, so that blending stops early
+  high_opacity,  ///< opacities of 0.98 to 0.9999, around the 0.99 clamp; large, so that blending stops early
   mixed,         ///< each Gaussian of one of the kinds above
 };
 
