@@ -1,8 +1,8 @@
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 #include <functional>
-#include <initializer_list>
 #include <string>
 #include <utility>
 #include <vector>
@@ -71,13 +71,13 @@ class ConfigSchema {
   std::string dump() const;
 
  private:
-  /// Stores a value; throws ConfigValueError (config.cpp) that says what was expected.
-  using Parser = std::function<void(const YAML::Node&)>;
+  /// Stores a value; returns what was expected instead where it cannot, else an empty string.
+  using Parser = std::function<std::string(const YAML::Node&)>;
 
   struct Entry {
     std::string key;
     std::string help;
-    bool is_list = false;
+    bool is_list = false;  ///< given as a YAML list, also on the command line
     Parser parse;
     std::function<std::string()> print;  ///< the current value as YAML
   };
@@ -87,11 +87,13 @@ class ConfigSchema {
                   std::function<void(std::size_t)> store, std::function<std::size_t()> load,
                   const std::string& help);
   const Entry* find(const std::string& key) const;
-  std::string unknown_key(const std::string& key) const;
+  bool is_section(const std::string& key) const;
+  /// Stores a value, or returns what is wrong with it.
+  std::string apply(const std::string& key, const YAML::Node& value) const;
+  /// The keys that start with `prefix` (empty, or ending in a dot) as indented YAML.
+  std::string dump_section(const std::string& prefix, std::size_t depth) const;
 
   std::vector<Entry> entries_;
-
-  friend class ConfigFile;
 };
 
 template <typename T>

@@ -10,7 +10,7 @@ namespace surefield {
 /// A cloud read from a file.
 struct PlyCloud {
   GaussianCloud cloud;
-  std::size_t dropped = 0;  ///< Gaussians left out because a value was NaN or infinite
+  std::size_t dropped = 0;  ///< Gaussians left out because a value was NaN or infinite or the rotation zero
 };
 
 /// Reads a Gaussian cloud in the usual 3DGS layout: one element `vertex` with x y z, f_dc_0..2, optional

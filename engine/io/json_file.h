@@ -1,0 +1,44 @@
+#pragma once
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "engine/splat/camera.h"
+
+namespace surefield {
+
+/// An object of a JSON file, with access that names the file and the key in every error.
+class JsonObject {
+ public:
+  /// Reads a file whose top level is an object. Throws InputError.
+  explicit JsonObject(const std::filesystem::path& file);
+
+  /// The object under `key`. Throws InputError when it is missing or no object.
+  JsonObject object(const std::string& key) const;
+
+  /// The finite number under `key`. Throws InputError when it is missing or none.
+  double number(const std::string& key) const;
+
+  /// The positive number under `key`. Throws InputError when it is missing or none.
+  double positive(const std::string& key) const;
+
+  /// The value under `key`, of any type. Throws InputError when it is missing.
+  const nlohmann::json& at(const std::string& key) const;
+
+  /// An error about `key` of this file.
+  [[noreturn]] void fail(const std::string& key, const std::string& problem) const;
+
+ private:
+  JsonObject(std::filesystem::path file, nlohmann::json value);
+
+  std::filesystem::path file_;
+  nlohmann::json value_;
+};
+
+/// Pinhole intrinsics from an object: the size under `width_key` and `height_key` (whole pixels), and fx, fy,
+/// cx, cy. Throws InputError.
+Intrinsics read_intrinsics(const JsonObject& object, const std::string& width_key,
+                           const std::string& height_key);
+
+}  // namespace surefield

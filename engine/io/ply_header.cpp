@@ -1,0 +1,162 @@
+#include "engine/io/ply_header.h"
+
+#include <charconv>
+#include <fstream>
+#include <map>
+#include <optional>
+#include <sstream>
+
+#include "engine/io/error.h"
+#include "engine/io/files.h"
+
+namespace surefield {
+
+namespace {
+
+constexpr std::size_t kLongestHeader = 1 << 20;  // bytes; keeps a wrong file from being searched to its end
+constexpr const char* kHeaderEnd = "end_header";
+
+std::optional<PlyType> parse_type(const std::string& name) {
+  static const std::map<std::string, PlyType> types = {
+      {"char", PlyType::int8},      {"int8", PlyType::int8},       {"uchar", PlyType::uint8},
+      {"uint8", PlyType::uint8},    {"short", PlyType::int16},     {"int16", PlyType::int16},
+      {"ushort", PlyType::uint16},  {"uint16", PlyType::uint16},   {"int", PlyType::int32},
+      {"int32", PlyType::int32},    {"uint", PlyType::uint32},     {"uint32", PlyType::uint32},
+      {"float", PlyType::float32},  {"float32", PlyType::float32}, {"double", PlyType::float64},
+      {"float64", PlyType::float64}};
+  const auto found = types.find(name);
+  return found == types.end() ? std::nullopt : std::optional(found->second);
+}
+
+/// The text of the header up to and including the line end_header.
+std::string read_header_text(const std::filesystem::path& file) {
+  if (!std::filesystem::is_regular_file(file)) throw InputError(file, "no such file; check the path");
+  std::ifstream stream(file, std::ios::binary);
+  if (!stream) throw InputError(file, "cannot be opened; check its permissions");
+  std::string start(kLongestHeader, '\0');
+  stream.read(start.data(), static_cast<std::streamsize>(start.size()));
+  start.resize(static_cast<std::size_t>(stream.gcount()));
+  if (!start.starts_with("ply\n") && !start.starts_with("ply\r\n")) {
+    throw InputError(file, "is no PLY file: it does not start with \"ply\"");
+  }
+  const auto end = start.find(std::string("\n") + kHeaderEnd);
+  const auto newline = end == std::string::npos ? end : start.find('\n', end + 1);
+  if (newline == std::string::npos)
+    throw InputError(file, "its PLY header does not end; the file is cut off");
+  return start.substr(0, newline + 1);
+}
+
+/// Takes one header line after another.
+class HeaderParser {
+ public:
+  HeaderParser(const std::filesystem::path& file, PlyHeader& header) : file_(file), header_(header) {}
+
+  void take(const std::string& line, int number) {
+    std::istringstream words(line);
+    std::string keyword;
+    words >> keyword;
+    line_ = number;
+    if (keyword == "format") take_format(words);
+    if (keyword == "element") take_element(words);
+    if (keyword == "property" && elements_ == 1) take_property(words);
+  }
+
+  void finish() const {
+    if (!has_format_) throw InputError(file_, "its PLY header names no format");
+    if (elements_ == 0) throw InputError(file_, "its PLY header has no element vertex");
+    if (header_.properties.empty()) throw InputError(file_, "its PLY header gives the vertices no property");
+  }
+
+ private:
+  void take_format(std::istringstream& words) {
+    std::string format;
+    words >> format;
+    if (format != "ascii" && format != "binary_little_endian") {
+      fail("the format \"" + format + "\" is not supported; convert it to binary_little_endian");
+    }
+    header_.is_ascii = format == "ascii";
+    has_format_ = true;
+  }
+
+  void take_element(std::istringstream& words) {
+    std::string name;
+    std::string count;
+    words >> name >> count;
+    if (++elements_ > 1) return;
+    if (name != "vertex") fail("the first element must be vertex, it is \"" + name + "\"");
+    const auto [end, error] = std::from_chars(count.data(), count.data() + count.size(), header_.vertices);
+    if (error != std::errc() || end != count.data() + count.size() || count.empty()) {
+      fail("\"" + count + "\" is no number of vertices");
+    }
+  }
+
+  void take_property(std::istringstream& words) {
+    std::string type_name;
+    std::string name;
+    words >> type_name >> name;
+    const auto type = parse_type(type_name);
+    if (!type || name.empty()) fail("a property of type \"" + type_name + "\" is not possible in a vertex");
+    header_.properties.push_back({name, *type});
+  }
+
+  [[noreturn]] void fail(const std::string& problem) const { throw InputError(file_, line_, problem); }
+
+  const std::filesystem::path& file_;
+  PlyHeader& header_;
+  int elements_ = 0;
+  int line_ = 0;
+  bool has_format_ = false;
+};
+
+/// Refuses a count that the file cannot hold, so that a damaged header asks for no absurd amount of memory.
+void check_length(const std::filesystem::path& file, const PlyHeader& header) {
+  const std::size_t data = std::filesystem::file_size(file) - header.data_offset;
+  // The shortest ASCII vertex has one digit and one separator per value; the last separator may be missing.
+  const std::size_t possible =
+      header.is_ascii ? (data + 1) / (2 * header.properties.size()) : data / header.stride();
+  if (header.vertices > possible) {
+    throw InputError(file, "holds fewer Gaussians than its header says (" + std::to_string(header.vertices) +
+                               "); the file is cut off");
+  }
+}
+
+}  // namespace
+
+std::size_t ply_type_size(PlyType type) {
+  switch (type) {
+    case PlyType::int8:
+    case PlyType::uint8:
+      return 1;
+    case PlyType::int16:
+    case PlyType::uint16:
+      return 2;
+    case PlyType::int32:
+    case PlyType::uint32:
+    case PlyType::float32:
+      return 4;
+    case PlyType::float64:
+      return 8;
+  }
+  return 0;
+}
+
+std::size_t PlyHeader::offset(std::size_t i) const {
+  std::size_t bytes = 0;
+  for (std::size_t j = 0; j < i; ++j) bytes += ply_type_size(properties[j].type);
+  return bytes;
+}
+
+PlyHeader read_ply_header(const std::filesystem::path& file) {
+  const std::string text = read_header_text(file);
+  PlyHeader header;
+  header.data_offset = text.size();
+  HeaderParser parser(file, header);
+  std::istringstream lines(text);
+  std::string line;
+  for (int number = 1; std::getline(lines, line); ++number) parser.take(line, number);
+  parser.finish();
+  check_length(file, header);
+  return header;
+}
+
+}  // namespace surefield

@@ -1,0 +1,64 @@
+#include <bit>
+#include <vector>
+
+#include <stdexcept>
+#include "engine/io/files.h"
+#include "engine/io/ply.h"
+
+static_assert(std::endian::native == std::endian::little,
+              "PLY files are written in the byte order of the machine");
+
+namespace surefield {
+
+namespace {
+
+void write_header(std::ostream& stream, const GaussianCloud& cloud) {
+  stream << "ply\nformat binary_little_endian 1.0\nelement vertex " << cloud.size() << "\n";
+  const auto property = [&](const std::string& name) { stream << "property float " << name << "\n"; };
+  const auto properties = [&](const std::string& prefix, int count) {
+    for (int i = 0; i < count; ++i) property(prefix + std::to_string(i));
+  };
+  for (const char* name : {"x", "y", "z", "nx", "ny", "nz"}) property(name);
+  properties("f_dc_", 3);
+  properties("f_rest_", 3 * (sh_coefficients(cloud.sh_degree) - 1));
+  property("opacity");
+  properties("scale_", 3);
+  properties("rot_", 4);
+  stream << "end_header\n";
+}
+
+/// One Gaussian as stored; `record` is reused.
+void fill_record(const GaussianCloud& cloud, std::size_t i, std::vector<float>& record) {
+  const auto coefficients = static_cast<std::size_t>(sh_coefficients(cloud.sh_degree));
+  const float* sh = cloud.sh.data() + i * coefficients * 3;
+  record.clear();
+  record.insert(record.end(), cloud.means[i].begin(), cloud.means[i].end());
+  record.insert(record.end(), 3, 0.0f);  // normals, which nobody uses and every tool expects
+  record.insert(record.end(), sh, sh + 3);
+  for (std::size_t channel = 0; channel < 3; ++channel) {
+    for (std::size_t k = 1; k < coefficients; ++k) record.push_back(sh[k * 3 + channel]);
+  }
+  record.push_back(cloud.opacity_logits[i]);
+  record.insert(record.end(), cloud.log_scales[i].begin(), cloud.log_scales[i].end());
+  record.insert(record.end(), cloud.rotations[i].begin(), cloud.rotations[i].end());
+}
+
+}  // namespace
+
+void write_ply(const std::filesystem::path& file, const GaussianCloud& cloud) {
+  const std::size_t sh_size = cloud.size() * static_cast<std::size_t>(sh_coefficients(cloud.sh_degree)) * 3;
+  const bool consistent = cloud.log_scales.size() == cloud.size() && cloud.rotations.size() == cloud.size() &&
+                          cloud.opacity_logits.size() == cloud.size() && cloud.sh.size() == sh_size;
+  if (!consistent) throw std::logic_error("write_ply: the arrays of the cloud differ in length");
+  write_file(file, [&](std::ostream& stream) {
+    write_header(stream, cloud);
+    std::vector<float> record;
+    for (std::size_t i = 0; i < cloud.size(); ++i) {
+      fill_record(cloud, i, record);
+      stream.write(reinterpret_cast<const char*>(record.data()),
+                   static_cast<std::streamsize>(record.size() * sizeof(float)));
+    }
+  });
+}
+
+}  // namespace surefield
