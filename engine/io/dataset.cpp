@@ -18,9 +18,9 @@ struct Layout {
 };
 
 constexpr std::array<Layout, 3> kLayouts = {{
-    {"tum", tum_layout, is_tum, read_tum_sequence},
-    {"replica", replica_layout, is_replica, read_replica_sequence},
-    {"sevenscenes", sevenscenes_layout, is_sevenscenes, read_sevenscenes_sequence},
+    {"tum", kTumLayout, is_tum, read_tum_sequence},
+    {"replica", kReplicaLayout, is_replica, read_replica_sequence},
+    {"sevenscenes", kSevenScenesLayout, is_sevenscenes, read_sevenscenes_sequence},
 }};
 
 std::string all_layouts() {

@@ -68,14 +68,14 @@ struct NumberedName {
 std::vector<StoredFrame> numbered_frames(const std::filesystem::path& folder, const NumberedName& colour,
                                          const NumberedName& depth);
 
-/// The layouts: `is_...` tells from the names of files whether a folder has the layout, `..._layout` says
+/// The layouts: `is_...` tells from the names of files whether a folder has the layout, `k...Layout` says
 /// what is looked for, `read_..._sequence` throws InputError.
 bool is_tum(const std::filesystem::path& folder);
 bool is_replica(const std::filesystem::path& folder);
 bool is_sevenscenes(const std::filesystem::path& folder);
-inline constexpr const char* tum_layout = "rgb.txt and depth.txt";
-inline constexpr const char* replica_layout = "results/frame000000.jpg";
-inline constexpr const char* sevenscenes_layout = "frame-000000.color.jpg or .png";
+inline constexpr const char* kTumLayout = "rgb.txt and depth.txt";
+inline constexpr const char* kReplicaLayout = "results/frame000000.jpg";
+inline constexpr const char* kSevenScenesLayout = "frame-000000.color.jpg or .png";
 StoredSequence read_tum_sequence(const std::filesystem::path& folder);
 StoredSequence read_replica_sequence(const std::filesystem::path& folder);
 StoredSequence read_sevenscenes_sequence(const std::filesystem::path& folder);

@@ -36,8 +36,12 @@ cv::Mat decode(const std::filesystem::path& file, int flags) {
 
 void encode(const std::filesystem::path& file, const char* extension, const cv::Mat& image,
             const std::vector<int>& parameters) {
-  cv::Mat stored = image;
-  if (image.channels() == 3) cv::cvtColor(image, stored, cv::COLOR_RGB2BGR);
+  cv::Mat stored;  // a buffer of its own: the caller's pixels stay as they are
+  if (image.channels() == 3) {
+    cv::cvtColor(image, stored, cv::COLOR_RGB2BGR);
+  } else {
+    stored = image;
+  }
   std::vector<uchar> bytes;
   if (!cv::imencode(extension, stored, bytes, parameters))
     throw InputError(file, "the image cannot be encoded");

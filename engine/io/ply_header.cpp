@@ -13,7 +13,7 @@ namespace surefield {
 
 namespace {
 
-constexpr std::size_t kLongestHeader = 1 << 20;  // bytes; keeps a wrong file from being searched to its end
+constexpr std::size_t kLongestHeader = 1 << 16;  // bytes; keeps a wrong file from being searched to its end
 constexpr const char* kHeaderEnd = "end_header";
 
 std::optional<PlyType> parse_type(const std::string& name) {
