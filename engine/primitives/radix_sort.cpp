@@ -6,63 +6,67 @@ namespace surefield {
 
 namespace {
 
-/// Invocations of a workgroup that moves pairs: 256 counters of each fill 32 KiB of shared memory.
-constexpr uint32_t kGroupSize = 32;
-/// Most columns of the table, and the least number of pairs for which a column pays. A software device wants
-/// few, a GPU many.
-constexpr uint32_t kCpuColumns = 128, kCpuChunkLeast = 128;
-constexpr uint32_t kGpuColumns = 8192, kGpuChunkLeast = 32;
+constexpr uint32_t kDigitBitsMax = 8;
+static_assert(glsl::SORT_DIGITS_MAX == 1u << kDigitBitsMax);
 /// Pairs that one invocation may loop over (lavapipe ends loops at 65535 rounds in all).
 constexpr uint32_t kChunkMax = 32768;
-
-constexpr uint32_t kDigitBitsMax = 8;
+constexpr uint32_t kOffsetsGroupSize = 64;
 
 }  // namespace
 
-RadixSort::RadixSort(gpu::Device& device)
-    : is_cpu_(device.limits().is_cpu),
-      histogram_(device, kGroupSize, {.CHUNK_LEAST = is_cpu_ ? kCpuChunkLeast : kGpuChunkLeast}),
-      offsets_(device, is_cpu_ ? 16 : 256, {.CHUNK_LEAST = is_cpu_ ? kCpuChunkLeast : kGpuChunkLeast}),
-      scatter_(device, kGroupSize, {.CHUNK_LEAST = is_cpu_ ? kCpuChunkLeast : kGpuChunkLeast}),
+SortShape SortShape::for_device(const gpu::DeviceLimits& limits) {
+  if (limits.is_cpu) return {.group_size = 16, .columns = 128, .chunk_least = 128, .offsets_team = 1};
+  return {.group_size = 32, .columns = 8192, .chunk_least = 32, .offsets_team = 256};
+}
+
+RadixSort::RadixSort(gpu::Device& device) : RadixSort(device, SortShape::for_device(device.limits())) {}
+
+RadixSort::RadixSort(gpu::Device& device, const SortShape& shape)
+    : shape_(shape),
+      histogram_(device, shape.group_size, {.CHUNK_LEAST = shape.chunk_least}),
+      offsets_(device, std::max(kOffsetsGroupSize, shape.offsets_team),
+               {.CHUNK_LEAST = shape.chunk_least, .TEAM = shape.offsets_team}),
+      scatter_(device, shape.group_size, {.CHUNK_LEAST = shape.chunk_least}),
       table_(device, "digit table of the sort"),
       digit_totals_(device, "digit totals of the sort", glsl::SORT_DIGITS_MAX),
       other_keys_(device, "other keys of the sort"),
       other_values_(device, "other values of the sort") {}
 
 uint32_t RadixSort::columns_for(uint32_t capacity) const {
-  const uint32_t least = is_cpu_ ? kCpuChunkLeast : kGpuChunkLeast;
-  const uint32_t wanted = std::min(capacity / least + 1, is_cpu_ ? kCpuColumns : kGpuColumns);
+  const uint32_t wanted = std::min(capacity / shape_.chunk_least + 1, shape_.columns);
   const uint32_t needed = capacity / kChunkMax + 1;
-  return histogram_.groups(std::max(wanted, needed)) * kGroupSize;
+  return histogram_.groups(std::max(wanted, needed)) * shape_.group_size;
 }
 
 void RadixSort::record(gpu::Recorder& recorder, const gpu::Array<glsl::uint>& keys,
                        const gpu::Array<glsl::uint>& values, const DeviceCount& count, uint32_t bits) {
-  const uint32_t columns = columns_for(count.capacity);
-  recorder.reserve(table_, uint64_t{columns} * glsl::SORT_DIGITS_MAX);
+  recorder.reserve(table_, uint64_t{columns_for(count.capacity)} * glsl::SORT_DIGITS_MAX);
   recorder.reserve(other_keys_, count.capacity);
   recorder.reserve(other_values_, count.capacity);
-  // An even number of passes, so that the result ends where it began.
+  // An even number of passes, so that the result ends where the input was.
   const uint32_t passes = (bits + 2 * kDigitBitsMax - 1) / (2 * kDigitBitsMax) * 2;
   const Pairs given{keys, values}, other{other_keys_, other_values_};
-  for (uint32_t p = 0, shift = 0; p < passes; ++p) {
-    const uint32_t digit_bits = (bits - shift + (passes - p) - 1) / (passes - p);
-    record_digit(recorder, p % 2 ? other : given, p % 2 ? given : other, count, columns, shift, digit_bits);
+  uint32_t shift = 0;
+  for (uint32_t left = passes; left > 0; --left) {
+    const uint32_t digit_bits = (bits - shift + left - 1) / left;
+    const bool forth = left % 2 == 0;
+    record_digit(recorder, forth ? given : other, forth ? other : given, count, {shift, digit_bits});
     shift += digit_bits;
   }
 }
 
 void RadixSort::record_digit(gpu::Recorder& recorder, const Pairs& from, const Pairs& to,
-                             const DeviceCount& count, uint32_t columns, uint32_t shift,
-                             uint32_t digit_bits) {
+                             const DeviceCount& count, const Digit& digit) {
+  const uint32_t columns = columns_for(count.capacity);
+  const uint32_t digits = 1u << digit.bits;
   recorder.dispatch(
-      histogram_, columns / kGroupSize, {.count = count.value, .keys = from.keys, .table = table_},
-      {.capacity = count.capacity, .columns = columns, .shift = shift, .digit_bits = digit_bits});
-  recorder.dispatch(offsets_, 1u << digit_bits,
+      histogram_, columns / shape_.group_size, {.count = count.value, .keys = from.keys, .table = table_},
+      {.capacity = count.capacity, .columns = columns, .shift = digit.shift, .digit_bits = digit.bits});
+  recorder.dispatch(offsets_, offsets_.groups(digits * shape_.offsets_team),
                     {.count = count.value, .table = table_, .digit_totals = digit_totals_},
-                    {.capacity = count.capacity, .columns = columns});
+                    {.capacity = count.capacity, .columns = columns, .digits = digits});
   recorder.dispatch(
-      scatter_, columns / kGroupSize,
+      scatter_, columns / shape_.group_size,
       {.count = count.value,
        .keys = from.keys,
        .values = from.values,
@@ -70,7 +74,7 @@ void RadixSort::record_digit(gpu::Recorder& recorder, const Pairs& from, const P
        .digit_totals = digit_totals_,
        .sorted_keys = to.keys,
        .sorted_values = to.values},
-      {.capacity = count.capacity, .columns = columns, .shift = shift, .digit_bits = digit_bits});
+      {.capacity = count.capacity, .columns = columns, .shift = digit.shift, .digit_bits = digit.bits});
 }
 
 }  // namespace surefield

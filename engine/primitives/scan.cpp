@@ -6,26 +6,32 @@ namespace surefield {
 
 namespace {
 
-/// A software device wants few invocations, each with a long chunk; a GPU wants many.
-constexpr uint32_t kCpuGroupSize = 16, kCpuGroups = 8;
-constexpr uint32_t kGpuGroupSize = 256, kGpuGroups = 1024;
-/// Elements that are worth an invocation, and that one may loop over (lavapipe ends loops at 65535 rounds in
-/// all).
-constexpr uint32_t kChunkWanted = 8, kChunkMax = 16384;
+/// Elements that are worth an invocation, and that one may loop over twice (lavapipe ends loops at 65535
+/// rounds in all).
+constexpr uint32_t kChunkLeast = 8, kChunkMax = 16384;
 
 }  // namespace
 
+ScanShape ScanShape::for_device(const gpu::DeviceLimits& limits) {
+  if (limits.is_cpu) return {.group_size = 16, .groups = 8};
+  return {.group_size = 256, .groups = 1024};
+}
+
 ExclusiveScan::ExclusiveScan(gpu::Device& device)
-    : groups_max_(device.limits().is_cpu ? kCpuGroups : kGpuGroups),
-      sums_(device, device.limits().is_cpu ? kCpuGroupSize : kGpuGroupSize),
-      apply_(device, device.limits().is_cpu ? kCpuGroupSize : kGpuGroupSize),
+    : ExclusiveScan(device, ScanShape::for_device(device.limits())) {}
+
+ExclusiveScan::ExclusiveScan(gpu::Device& device, const ScanShape& shape)
+    : shape_(shape),
+      sums_(device, shape.group_size),
+      apply_(device, shape.group_size),
       group_sums_(device, "sums of scan groups") {}
 
 void ExclusiveScan::record(gpu::Recorder& recorder, const gpu::Array<glsl::uint>& input,
                            const gpu::Array<glsl::uint>& output, const gpu::Array<glsl::uint>& total,
                            const DeviceCount& count) {
-  const uint32_t wanted = std::clamp(sums_.groups(count.capacity / kChunkWanted), 1u, groups_max_);
-  const uint32_t groups = std::max(wanted, sums_.groups(count.capacity / kChunkMax));
+  const uint32_t wanted = std::min(count.capacity / (kChunkLeast * shape_.group_size) + 1, shape_.groups);
+  const uint32_t needed = count.capacity / (kChunkMax * shape_.group_size) + 1;
+  const uint32_t groups = std::max(wanted, needed);
   recorder.reserve(group_sums_, groups);
   recorder.dispatch(sums_, groups, {.count = count.value, .values = input, .group_sums = group_sums_},
                     {.capacity = count.capacity});

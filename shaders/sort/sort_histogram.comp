@@ -13,7 +13,7 @@ void main() {
   const uint worker = gl_GlobalInvocationID.x;
   const uint begin = min(worker * chunk, n);
   const uint end = min(begin + chunk, n);
-  const uint digits = 1u << params.digit_bits;
+  const uint digits = begin < end ? 1u << params.digit_bits : 0;  // no column for an empty chunk
   const uint mine = gl_LocalInvocationID.x;
 
   for (uint d = 0; d < digits; ++d) counters[d * gl_WorkGroupSize.x + mine] = 0;

@@ -30,6 +30,16 @@ gpu::Array<T> upload(gpu::Device& device, const std::string& name, const std::ve
   return array;
 }
 
+/// A random number below `limit`.
+inline uint32_t random_below(std::mt19937& random, uint32_t limit) {
+  return std::uniform_int_distribution<uint32_t>(0, limit - 1)(random);
+}
+
+/// A random size up to 2^`bits`, of every order of magnitude alike.
+inline uint32_t random_size(std::mt19937& random, uint32_t bits) {
+  return 1 + random_below(random, 1u << (1 + random_below(random, bits)));
+}
+
 /// `count` random words below 2^bits.
 inline std::vector<uint32_t> random_words(uint32_t seed, std::size_t count, uint32_t bits = 32) {
   std::mt19937 random(seed);

@@ -2,7 +2,6 @@
 
 #include <cstdio>
 #include <cstdlib>
-#include <memory>
 
 namespace surefield::testing {
 
@@ -22,14 +21,25 @@ struct CheckedDevice {
 
 }  // namespace
 
+gpu::DeviceOptions device_options() {
+  gpu::DeviceOptions options;
+  if (const char* selector = std::getenv("SUREFIELD_DEVICE")) options.selector = selector;
+  options.validate = true;
+  return options;
+}
+
 gpu::Device& device() {
-  static const auto checked = [] {
-    gpu::DeviceOptions options;
-    if (const char* selector = std::getenv("SUREFIELD_DEVICE")) options.selector = selector;
-    options.validate = true;
-    return std::make_unique<CheckedDevice>(options);
-  }();
-  return checked->device;
+  static CheckedDevice checked(device_options());
+  return checked.device;
+}
+
+gpu::Device& pool_device() {
+  static CheckedDevice checked([] {
+    gpu::DeviceOptions options = device_options();
+    options.force_descriptor_pool = true;
+    return options;
+  }());
+  return checked.device;
 }
 
 }  // namespace surefield::testing

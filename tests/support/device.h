@@ -4,9 +4,15 @@
 
 namespace surefield::testing {
 
-/// The device that the tests of one program share, opened at first use with validation on. The device is
-/// chosen by the environment variable SUREFIELD_DEVICE (as --device). At exit the program fails if validation
-/// said anything.
+/// The options of device(), for tests that open a device of their own: the device that the environment
+/// variable SUREFIELD_DEVICE names (as --device), with validation.
+gpu::DeviceOptions device_options();
+
+/// The device that the tests of one program share, opened at first use. At exit the program fails if
+/// validation said anything.
 gpu::Device& device();
+
+/// The same, but binding with descriptor sets from a pool even where the device has push descriptors.
+gpu::Device& pool_device();
 
 }  // namespace surefield::testing
