@@ -11,8 +11,8 @@ constexpr int sh_coefficients(int degree) {
   return (degree + 1) * (degree + 1);
 }
 
-/// A set of 3D Gaussians in host memory, as optimised (raw, before any activation). All arrays have one entry per
-/// Gaussian. World frame, metres.
+/// A set of 3D Gaussians in host memory, as optimised (raw, before any activation). All arrays have one entry
+/// per Gaussian. World frame, metres.
 struct GaussianCloud {
   std::vector<Eigen::Vector3f> means;       ///< centre
   std::vector<Eigen::Vector3f> log_scales;  ///< ln of the standard deviation along each axis, in metres

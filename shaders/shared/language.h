@@ -14,6 +14,7 @@
 
 #define SUREFIELD_STRING_(text) #text
 #define SUREFIELD_STRING(text) SUREFIELD_STRING_(text)
+#define SHARED_CONST inline constexpr
 #define SHARED_TYPES_BEGIN namespace surefield::glsl {
 #define SHARED_TYPES_END }
 
@@ -26,6 +27,7 @@
 #extension GL_KHR_shader_subgroup_ballot : require
 #extension GL_KHR_shader_subgroup_shuffle : require
 
+#define SHARED_CONST const
 #define SHARED_TYPES_BEGIN
 #define SHARED_TYPES_END
 

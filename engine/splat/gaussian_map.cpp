@@ -1,0 +1,114 @@
+#include "engine/splat/gaussian_map.h"
+
+#include <stdexcept>
+
+#include "engine/gpu/recorder.h"
+
+namespace surefield {
+
+namespace {
+
+using glsl::vec3;
+using glsl::vec4;
+
+// Eigen's fixed vectors and the GLSL types have the same bytes.
+std::span<const vec3> as_vec3(const std::vector<Eigen::Vector3f>& v) {
+  return {reinterpret_cast<const vec3*>(v.data()), v.size()};
+}
+
+/// Clears the entries [first, first + count) of an array.
+template <class T>
+void clear(gpu::Recorder& recorder, const gpu::Array<T>& array, uint64_t first, uint64_t count) {
+  if (count) recorder.fill({&array.buffer(), first * sizeof(T), count * sizeof(T)}, 0);
+}
+
+template <class T>
+void write_parameter(gpu::Recorder& recorder, Parameter<T>& parameter, std::span<const T> values,
+                     uint64_t first) {
+  parameter.value.upload(values, first);
+  clear(recorder, parameter.first_moment, first, values.size());
+  clear(recorder, parameter.second_moment, first, values.size());
+}
+
+template <class T>
+void reserve_parameter(Parameter<T>& parameter, uint64_t count) {
+  parameter.value.reserve(count, true);
+  parameter.first_moment.reserve(count, true);
+  parameter.second_moment.reserve(count, true);
+}
+
+}  // namespace
+
+GaussianMap::GaussianMap(gpu::Device& device)
+    : means(device, "means"),
+      log_scales(device, "log scales"),
+      rotations(device, "rotations"),
+      opacity_logits(device, "opacity logits"),
+      sh(device, "spherical harmonics"),
+      steps(device, "Adam steps"),
+      densification(device, "densification statistics"),
+      count(device, "Gaussian count"),
+      device_(device) {
+  assign({});
+}
+
+void GaussianMap::reserve(uint32_t capacity) {
+  const uint64_t blocks = (static_cast<uint64_t>(capacity) + kBlock - 1) / kBlock * kBlock;
+  reserve_parameter(means, blocks);
+  reserve_parameter(log_scales, blocks);
+  reserve_parameter(rotations, blocks);
+  reserve_parameter(opacity_logits, blocks);
+  reserve_parameter(sh, blocks * sh_coefficients(sh_degree_));
+  steps.reserve(blocks, true);
+  densification.reserve(blocks, true);
+}
+
+void GaussianMap::assign(const GaussianCloud& cloud) {
+  size_ = 0;
+  sh_degree_ = cloud.sh_degree;
+  append(cloud);
+}
+
+void GaussianMap::append(const GaussianCloud& cloud) {
+  if (cloud.sh_degree != sh_degree_) throw std::invalid_argument("the clouds have different SH degrees");
+  const uint32_t first = size_;
+  reserve(first + static_cast<uint32_t>(cloud.size()));
+  write(cloud, first);
+  size_ = first + static_cast<uint32_t>(cloud.size());
+  count.upload(std::span(&size_, 1));
+}
+
+void GaussianMap::write(const GaussianCloud& cloud, uint32_t first) {
+  const uint64_t coefficients = sh_coefficients(sh_degree_);
+  gpu::Recorder recorder(device_);
+  write_parameter(recorder, means, as_vec3(cloud.means), first);
+  write_parameter(recorder, log_scales, as_vec3(cloud.log_scales), first);
+  write_parameter(recorder, rotations,
+                  std::span(reinterpret_cast<const vec4*>(cloud.rotations.data()), cloud.size()), first);
+  write_parameter(recorder, opacity_logits, std::span(cloud.opacity_logits), first);
+  write_parameter(recorder, sh,
+                  std::span(reinterpret_cast<const vec3*>(cloud.sh.data()), cloud.size() * coefficients),
+                  first * coefficients);
+  clear(recorder, steps, first, cloud.size());
+  clear(recorder, densification, first, cloud.size());
+  recorder.submit();
+}
+
+GaussianCloud GaussianMap::download() const {
+  GaussianCloud cloud;
+  cloud.sh_degree = sh_degree_;
+  cloud.resize(size_);
+  means.value.buffer().download(cloud.means.data(), 0, size_ * sizeof(vec3));
+  log_scales.value.buffer().download(cloud.log_scales.data(), 0, size_ * sizeof(vec3));
+  rotations.value.buffer().download(cloud.rotations.data(), 0, size_ * sizeof(vec4));
+  opacity_logits.value.buffer().download(cloud.opacity_logits.data(), 0, size_ * sizeof(float));
+  sh.value.buffer().download(cloud.sh.data(), 0, cloud.sh.size() * sizeof(float));
+  return cloud;
+}
+
+uint64_t GaussianMap::parameter_bytes() const {
+  return size_ *
+         (2 * sizeof(vec3) + sizeof(vec4) + sizeof(float) + sh_coefficients(sh_degree_) * sizeof(vec3));
+}
+
+}  // namespace surefield

@@ -1,0 +1,222 @@
+#include "engine/splat/rasteriser.h"
+
+#include <Eigen/SVD>
+#include <cmath>
+
+namespace surefield {
+
+namespace {
+
+constexpr uint32_t kReduceWorkgroup = 64;
+
+glsl::vec3 to_vec3(const Eigen::Vector3d& v) {
+  return {static_cast<float>(v.x()), static_cast<float>(v.y()), static_cast<float>(v.z())};
+}
+
+Eigen::Vector3d to_eigen(const glsl::vec3& v) {
+  return {v.x, v.y, v.z};
+}
+
+passes::blend_forward::Constants forward_constants(const TileShape& s, bool geometry) {
+  return {.TILE_W = s.width, .TILE_H = s.height, .LANES = s.lanes, .WITH_GEOMETRY = geometry ? 1u : 0u};
+}
+
+}  // namespace
+
+glsl::CameraState to_device(const Camera& camera) {
+  const Eigen::Matrix3d R = camera.world_to_camera.rotation();
+  const Intrinsics& k = camera.intrinsics;
+  return {.rotation0 = to_vec3(R.row(0)),
+          .rotation1 = to_vec3(R.row(1)),
+          .rotation2 = to_vec3(R.row(2)),
+          .translation = to_vec3(camera.world_to_camera.translation()),
+          .fx = static_cast<float>(k.fx),
+          .fy = static_cast<float>(k.fy),
+          .cx = static_cast<float>(k.cx),
+          .cy = static_cast<float>(k.cy),
+          .width = static_cast<uint32_t>(k.width),
+          .height = static_cast<uint32_t>(k.height)};
+}
+
+Pose pose_of(const glsl::CameraState& state) {
+  Eigen::Matrix3d R;
+  R.row(0) = to_eigen(state.rotation0);
+  R.row(1) = to_eigen(state.rotation1);
+  R.row(2) = to_eigen(state.rotation2);
+  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(R, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  Pose pose = Pose::Identity();
+  pose.linear() = svd.matrixU() * svd.matrixV().transpose();
+  pose.translation() = to_eigen(state.translation);
+  return pose;
+}
+
+Rasteriser::Rasteriser(gpu::Device& device) : Rasteriser(device, TileShape::for_device(device)) {}
+
+Rasteriser::Rasteriser(gpu::Device& device, const TileShape& shape)
+    : lists(device, shape),
+      colour_opacity(device, "colour and opacity image"),
+      geometry(device, "geometry image"),
+      dominators(device, "dominator image"),
+      pixel_gradients(device, "pixel gradients"),
+      gaussian_gradients(device, "Gaussian gradients"),
+      sh_gradients(device, "SH gradients"),
+      pose_gradient(device, "pose gradient"),
+      device_(device),
+      forward_(device, shape.lanes, forward_constants(shape, false)),
+      forward_all_(device, shape.lanes, forward_constants(shape, true)),
+      backward_(device, shape.lanes, {.TILE_W = shape.width, .TILE_H = shape.height, .LANES = shape.lanes}),
+      reduce_pose_(device, kReduceWorkgroup),
+      instance_gradients_(device, "instance gradients"),
+      pose_partials_(device, "partial pose gradients") {}
+
+Rasteriser::BackwardPasses& Rasteriser::backward_passes(int sh_degree) {
+  auto& made = backward_passes_[sh_degree][pose_gradient_kind == PoseGradientKind::Full];
+  if (made) return *made;
+  const TileShape& s = lists.shape();
+  const uint32_t full = pose_gradient_kind == PoseGradientKind::Full ? 1 : 0;
+  const auto degree = static_cast<uint32_t>(sh_degree);
+  made.reset(new BackwardPasses{
+      {device_,
+       s.lanes,
+       {.TILE_W = s.width,
+        .TILE_H = s.height,
+        .LANES = s.lanes,
+        .SH_DEGREE = degree,
+        .FULL_POSE_GRADIENT = full}},
+      {device_, TileLists::kWorkgroup, {.SH_DEGREE = degree, .FULL_POSE_GRADIENT = full}}});
+  return *made;
+}
+
+void Rasteriser::record_forward(gpu::Recorder& recorder, const GaussianMap& map, const View& view,
+                                Outputs outputs) {
+  recorder.reserve(colour_opacity, view.size.pixels());
+  recorder.reserve(geometry, view.size.pixels());
+  recorder.reserve(dominators, view.size.pixels());
+  recorder.reserve(pixel_gradients, view.size.pixels());
+  lists.record(recorder, map, view.camera, view.size);
+  recorder.dispatch(outputs == Outputs::All ? forward_all_ : forward_, lists.tiles_x(view.size),
+                    lists.tiles_y(view.size),
+                    {.camera = view.camera,
+                     .splats = lists.splats,
+                     .instances = lists.instances,
+                     .instance_owners = lists.instance_owners,
+                     .tile_ranges = lists.tile_ranges,
+                     .sensor_depth = view.sensor_depth,
+                     .colour_opacity = colour_opacity,
+                     .geometry = geometry,
+                     .dominators = dominators},
+                    {.background = {background.x(), background.y(), background.z()}});
+}
+
+void Rasteriser::record_backward(gpu::Recorder& recorder, GaussianMap& map, const View& view,
+                                 float isotropy_weight) {
+  const uint32_t subgroups = TileLists::kWorkgroup / lists.shape().lanes;
+  const uint64_t groups = map.size() / TileLists::kWorkgroup + 1;
+  recorder.reserve(instance_gradients_, lists.instance_capacity());
+  recorder.reserve(pose_partials_, groups * subgroups);
+  recorder.reserve(gaussian_gradients, map.size());
+  recorder.reserve(sh_gradients, map.size() * static_cast<uint64_t>(sh_coefficients(map.sh_degree())));
+  // A tile that stops early does not reach all of its instances: their sums are zero.
+  recorder.fill(instance_gradients_, lists.instance_capacity(), 0);
+  recorder.dispatch(backward_, lists.tiles_x(view.size), lists.tiles_y(view.size),
+                    {.camera = view.camera,
+                     .splats = lists.splats,
+                     .instances = lists.instances,
+                     .instance_owners = lists.instance_owners,
+                     .tile_ranges = lists.tile_ranges,
+                     .sensor_depth = view.sensor_depth,
+                     .colour_opacity = colour_opacity,
+                     .geometry = geometry,
+                     .pixel_gradients = pixel_gradients,
+                     .instance_gradients = instance_gradients_},
+                    {.background = {background.x(), background.y(), background.z()}});
+  recorder.dispatch_indirect(backward_passes(map.sh_degree()).project, lists.dispatch_args,
+                             TileLists::kVisibleArgs,
+                             {.camera = view.camera,
+                              .means = map.means.value,
+                              .log_scales = map.log_scales.value,
+                              .rotations = map.rotations.value,
+                              .sh = map.sh.value,
+                              .splats = lists.splats,
+                              .visible_count = lists.visible_count,
+                              .visible_ids = lists.visible_ids,
+                              .instance_offsets = lists.instance_offsets,
+                              .sorted_counts = lists.sorted_counts,
+                              .instance_gradients = instance_gradients_,
+                              .gaussian_gradients = gaussian_gradients,
+                              .sh_gradients = sh_gradients,
+                              .pose_partials = pose_partials_,
+                              .densification = map.densification},
+                             {.weight_isotropy = isotropy_weight, .isotropy_epsilon = 1.0f});
+  recorder.dispatch(
+      reduce_pose_, 1,
+      {.visible_count = lists.visible_count, .pose_partials = pose_partials_, .pose_gradient = pose_gradient},
+      {.count = 0, .workgroup_size = TileLists::kWorkgroup, .subgroups = subgroups});
+}
+
+void Rasteriser::record_backward_pose(gpu::Recorder& recorder, const GaussianMap& map, const View& view) {
+  const uint32_t tiles = lists.tiles_x(view.size) * lists.tiles_y(view.size);
+  recorder.reserve(pose_partials_, tiles);
+  recorder.dispatch(backward_passes(map.sh_degree()).blend_pose, lists.tiles_x(view.size),
+                    lists.tiles_y(view.size),
+                    {.camera = view.camera,
+                     .splats = lists.splats,
+                     .instances = lists.instances,
+                     .instance_owners = lists.instance_owners,
+                     .tile_ranges = lists.tile_ranges,
+                     .sensor_depth = view.sensor_depth,
+                     .colour_opacity = colour_opacity,
+                     .geometry = geometry,
+                     .pixel_gradients = pixel_gradients,
+                     .means = map.means.value,
+                     .log_scales = map.log_scales.value,
+                     .rotations = map.rotations.value,
+                     .sh = map.sh.value,
+                     .pose_partials = pose_partials_},
+                    {.background = {background.x(), background.y(), background.z()}});
+  recorder.dispatch(
+      reduce_pose_, 1,
+      {.visible_count = lists.visible_count, .pose_partials = pose_partials_, .pose_gradient = pose_gradient},
+      {.count = tiles, .workgroup_size = 0, .subgroups = 0});
+}
+
+RenderImages Rasteriser::render(const GaussianMap& map, const Camera& camera,
+                                std::span<const float> sensor_depth) {
+  const ImageSize size{static_cast<uint32_t>(camera.intrinsics.width),
+                       static_cast<uint32_t>(camera.intrinsics.height)};
+  gpu::Array<glsl::CameraState> state(device_, "camera");
+  const glsl::CameraState host_state = to_device(camera);
+  state.upload(std::span(&host_state, 1));
+  gpu::Array<float> depth(device_, "sensor depth", size.pixels());
+  std::vector<float> clean(sensor_depth.begin(), sensor_depth.end());
+  clean.resize(size.pixels(), 0.0f);
+  for (float& d : clean)
+    if (!std::isfinite(d) || d < 0) d = 0;
+  depth.upload(clean);
+  gpu::Recorder recorder(device_);
+  do {
+    record_forward(recorder, map, {size, state, depth}, Outputs::All);
+    recorder.submit();
+  } while (lists.grow_after_overflow());
+
+  RenderImages images;
+  images.width = static_cast<int>(size.width);
+  images.height = static_cast<int>(size.height);
+  const auto geo = geometry.download(size.pixels());
+  const auto ids = dominators.download(size.pixels());
+  for (const glsl::vec4& p : colour_opacity.download(size.pixels())) {
+    images.colour.insert(images.colour.end(), {p.x, p.y, p.z});
+    images.opacity.push_back(p.w);
+  }
+  for (uint64_t i = 0; i < size.pixels(); ++i) {
+    images.depth.push_back(geo[i].x);
+    images.depth_normalised.push_back(images.opacity[i] > 0 ? geo[i].x / images.opacity[i] : 0.0f);
+    images.depth_median.push_back(geo[i].y);
+    images.uncertainty.push_back(geo[i].z);
+    images.dominator_weight.push_back(geo[i].w);
+    images.dominator.push_back(static_cast<int32_t>(ids[i]));
+  }
+  return images;
+}
+
+}  // namespace surefield

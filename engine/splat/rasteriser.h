@@ -1,0 +1,89 @@
+#pragma once
+
+#include "engine/splat/camera.h"
+#include "engine/splat/render_images.h"
+#include "engine/splat/tile_lists.h"
+#include "shaders/shared/blend_backward.h"
+#include "shaders/shared/blend_backward_pose.h"
+#include "shaders/shared/blend_forward.h"
+#include "shaders/shared/project_backward.h"
+#include "shaders/shared/reduce_pose.h"
+
+namespace surefield {
+
+/// What a pose's gradient is made of: every term, or those through the projected centre and the depth alone.
+enum class PoseGradientKind { Full, Light };
+
+/// The camera as kernels read it.
+glsl::CameraState to_device(const Camera& camera);
+/// Back to the pose that a kernel has moved; R is made orthonormal again.
+Pose pose_of(const glsl::CameraState& state);
+
+/// A view on the device: the camera (which pose optimisation moves) and the sensor's depth, 0 where invalid.
+struct View {
+  ImageSize size;
+  const gpu::Array<glsl::CameraState>& camera;
+  const gpu::Array<float>& sensor_depth;
+};
+
+/// Which outputs a forward pass computes: colour, opacity and D_alpha always.
+enum class Outputs { ColourDepth, All };
+
+/// The differentiable renderer (paper sections 3.1 and 3.2): tile lists, blending forward, and backward to
+/// every parameter or to the pose alone. Everything is recorded; nothing is read back.
+class Rasteriser {
+ public:
+  explicit Rasteriser(gpu::Device& device);
+  Rasteriser(gpu::Device& device, const TileShape& shape);
+
+  /// Renders the map into the images below.
+  void record_forward(gpu::Recorder& recorder, const GaussianMap& map, const View& view, Outputs outputs);
+
+  /// After record_forward() of the same view with Outputs::All, and with pixel_gradients filled: gradients of
+  /// every visible Gaussian and of the pose. `isotropy_weight` adds that of w L_iso (paper eq. 17).
+  void record_backward(gpu::Recorder& recorder, GaussianMap& map, const View& view, float isotropy_weight);
+
+  /// After record_forward(), with pixel_gradients filled: the gradient of the pose alone; nothing is written
+  /// per Gaussian.
+  void record_backward_pose(gpu::Recorder& recorder, const GaussianMap& map, const View& view);
+
+  /// Renders one camera and reads everything back. `sensor_depth` (metres, row-major) may be empty: no
+  /// uncertainty.
+  RenderImages render(const GaussianMap& map, const Camera& camera, std::span<const float> sensor_depth = {});
+
+  TileLists lists;
+  Eigen::Vector3f background = Eigen::Vector3f::Zero();
+  PoseGradientKind pose_gradient_kind =
+      PoseGradientKind::Full;  ///< read when the backward passes are first recorded
+
+  // Images of the last view, row-major.
+  gpu::Array<glsl::vec4> colour_opacity;  ///< I (RGB), O
+  gpu::Array<glsl::vec4> geometry;        ///< D_alpha, D_median, U, the dominator's weight
+  gpu::Array<glsl::uint> dominators;      ///< index in the map; 0xFFFFFFFF where nothing was blended
+  gpu::Array<glsl::PixelGradient> pixel_gradients;  ///< the caller's: dL/d(images)
+
+  // Gradients of the last backward pass; entries of Gaussians that were not visible are stale.
+  gpu::Array<glsl::GaussianGradient> gaussian_gradients;
+  gpu::Array<glsl::vec3> sh_gradients;
+  gpu::Array<glsl::PoseGradient> pose_gradient;  ///< 1
+
+ private:
+  struct BackwardPasses;
+  BackwardPasses& backward_passes(int sh_degree);
+
+  gpu::Device& device_;
+  gpu::Pass<passes::blend_forward> forward_;
+  gpu::Pass<passes::blend_forward> forward_all_;
+  gpu::Pass<passes::blend_backward> backward_;
+  gpu::Pass<passes::reduce_pose> reduce_pose_;
+  struct BackwardPasses {
+    gpu::Pass<passes::blend_backward_pose> blend_pose;
+    gpu::Pass<passes::project_backward> project;
+  };
+  std::unique_ptr<BackwardPasses> backward_passes_[4][2];  ///< per SH degree and kind, made when first needed
+
+  gpu::Array<glsl::SplatGradient> instance_gradients_;
+  gpu::Array<glsl::PoseGradient> pose_partials_;
+};
+
+}  // namespace surefield

@@ -1,0 +1,161 @@
+#include "engine/splat/tile_lists.h"
+
+#include <algorithm>
+#include <bit>
+
+namespace surefield {
+
+namespace {
+
+constexpr uint32_t kInstanceArgs = 1;
+constexpr uint32_t kFirstInstanceCapacity = 1u << 16;
+
+passes::emit_instances::Constants tile_constants(const TileShape& shape) {
+  return {.TILE_W = shape.width, .TILE_H = shape.height};
+}
+
+}  // namespace
+
+TileShape TileShape::for_device(const gpu::Device& device) {
+  return {.width = 8, .height = 8, .lanes = device.limits().subgroup_size};
+}
+
+TileLists::TileLists(gpu::Device& device, const TileShape& shape)
+    : dispatch_args(device, "dispatch arguments", 2),
+      splats(device, "splats"),
+      visible_count(device, "visible count"),
+      visible_ids(device, "visible Gaussians"),
+      instance_offsets(device, "instance offsets"),
+      sorted_counts(device, "tile counts by depth"),
+      instances(device, "instances"),
+      instance_owners(device, "instance owners"),
+      tile_ranges(device, "tile ranges"),
+      status(device, "render status"),
+      device_(device),
+      shape_(shape),
+      compact_(device, kWorkgroup),
+      gather_(device, kWorkgroup),
+      emit_(device, kWorkgroup, tile_constants(shape)),
+      ranges_(device, kWorkgroup),
+      prepare_(device, device.limits().subgroup_size),
+      scan_(device),
+      sort_(device),
+      tile_counts_(device, "tile counts"),
+      visible_flags_(device, "visible flags"),
+      visible_offsets_(device, "visible offsets"),
+      depth_keys_(device, "depth keys"),
+      instance_total_(device, "instance total"),
+      instance_count_(device, "instance count"),
+      tile_keys_(device, "tile keys") {
+  reserve_instances(kFirstInstanceCapacity);
+  status.upload(std::vector<glsl::RenderStatus>{{}});
+}
+
+gpu::Pass<passes::project_splats>& TileLists::projection(int sh_degree) {
+  auto& pass = project_[sh_degree];
+  if (!pass)
+    pass = std::make_unique<gpu::Pass<passes::project_splats>>(
+        device_, kWorkgroup,
+        passes::project_splats::Constants{shape_.width, shape_.height, static_cast<uint32_t>(sh_degree)});
+  return *pass;
+}
+
+void TileLists::reserve_instances(uint32_t capacity) {
+  instance_capacity_ = std::max(instance_capacity_, capacity);
+  instances.reserve(instance_capacity_);
+  instance_owners.reserve(instance_capacity_);
+  tile_keys_.reserve(instance_capacity_);
+}
+
+void TileLists::reserve(gpu::Recorder& recorder, const GaussianMap& map, const ImageSize& size) {
+  gaussians_ = map.size();
+  recorder.reserve(splats, gaussians_);
+  recorder.reserve(tile_counts_, gaussians_);
+  recorder.reserve(visible_flags_, gaussians_);
+  recorder.reserve(visible_offsets_, gaussians_);
+  recorder.reserve(depth_keys_, gaussians_);
+  recorder.reserve(visible_ids, gaussians_);
+  recorder.reserve(sorted_counts, gaussians_);
+  recorder.reserve(instance_offsets, gaussians_);
+  recorder.reserve(tile_ranges, static_cast<uint64_t>(tiles_x(size)) * tiles_y(size));
+}
+
+void TileLists::record(gpu::Recorder& recorder, const GaussianMap& map,
+                       const gpu::Array<glsl::CameraState>& camera, const ImageSize& size) {
+  reserve(recorder, map, size);
+  record_projection(recorder, map, camera);
+  record_instances(recorder, camera, tiles_x(size) * tiles_y(size));
+}
+
+void TileLists::record_projection(gpu::Recorder& recorder, const GaussianMap& map,
+                                  const gpu::Array<glsl::CameraState>& camera) {
+  auto& project = projection(map.sh_degree());
+  recorder.dispatch(project, project.groups(gaussians_),
+                    {.camera = camera,
+                     .means = map.means.value,
+                     .log_scales = map.log_scales.value,
+                     .rotations = map.rotations.value,
+                     .opacity_logits = map.opacity_logits.value,
+                     .sh = map.sh.value,
+                     .splats = splats,
+                     .tile_counts = tile_counts_,
+                     .visible_flags = visible_flags_},
+                    {.count = gaussians_});
+  scan_.record(recorder, visible_flags_, visible_offsets_, visible_count, {map.count, gaussians_});
+  recorder.dispatch(compact_, compact_.groups(gaussians_),
+                    {.splats = splats,
+                     .visible_flags = visible_flags_,
+                     .visible_offsets = visible_offsets_,
+                     .depth_keys = depth_keys_,
+                     .visible_ids = visible_ids},
+                    {.count = gaussians_});
+  sort_.record(recorder, depth_keys_, visible_ids, {visible_count, gaussians_}, 32);
+  recorder.dispatch(prepare_, 1, {.element_count = visible_count, .dispatch_args = dispatch_args},
+                    {.workgroup_size = kWorkgroup, .slot = kVisibleArgs});
+}
+
+void TileLists::record_instances(gpu::Recorder& recorder, const gpu::Array<glsl::CameraState>& camera,
+                                 uint32_t tiles) {
+  recorder.dispatch_indirect(gather_, dispatch_args, kVisibleArgs,
+                             {.visible_count = visible_count,
+                              .visible_ids = visible_ids,
+                              .tile_counts = tile_counts_,
+                              .sorted_counts = sorted_counts},
+                             {});
+  scan_.record(recorder, sorted_counts, instance_offsets, instance_total_, {visible_count, gaussians_});
+  recorder.dispatch_indirect(emit_, dispatch_args, kVisibleArgs,
+                             {.camera = camera,
+                              .splats = splats,
+                              .visible_count = visible_count,
+                              .visible_ids = visible_ids,
+                              .instance_offsets = instance_offsets,
+                              .instance_total = instance_total_,
+                              .tile_keys = tile_keys_,
+                              .instances = instances,
+                              .instance_owners = instance_owners,
+                              .status = status,
+                              .instance_count = instance_count_},
+                             {.capacity = instance_capacity_});
+  const auto bits = static_cast<uint32_t>(std::bit_width(tiles - 1));
+  sort_.record(recorder, tile_keys_, instances, {instance_count_, instance_capacity_}, bits);
+  recorder.fill(tile_ranges, tiles, 0);
+  recorder.dispatch(prepare_, 1, {.element_count = instance_count_, .dispatch_args = dispatch_args},
+                    {.workgroup_size = kWorkgroup, .slot = kInstanceArgs});
+  recorder.dispatch_indirect(
+      ranges_, dispatch_args, kInstanceArgs,
+      {.instance_count = instance_count_, .tile_keys = tile_keys_, .tile_ranges = tile_ranges}, {});
+}
+
+glsl::RenderStatus TileLists::read_status() const {
+  return status.download(1)[0];
+}
+
+bool TileLists::grow_after_overflow() {
+  const glsl::RenderStatus now = read_status();
+  if (!now.overflow) return false;
+  reserve_instances(now.instances + now.instances / 4);
+  status.upload(std::vector<glsl::RenderStatus>{{}});
+  return true;
+}
+
+}  // namespace surefield

@@ -1,0 +1,105 @@
+#pragma once
+
+#include "engine/primitives/radix_sort.h"
+#include "engine/primitives/scan.h"
+#include "engine/splat/gaussian_map.h"
+#include "shaders/shared/compact_visible.h"
+#include "shaders/shared/emit_instances.h"
+#include "shaders/shared/find_tile_ranges.h"
+#include "shaders/shared/gather_tile_counts.h"
+#include "shaders/shared/prepare_dispatch.h"
+#include "shaders/shared/project_splats.h"
+
+namespace surefield {
+
+/// Shape of the blending kernels: one subgroup of `lanes` invocations works a tile of width x height pixels.
+struct TileShape {
+  uint32_t width = 8;
+  uint32_t height = 8;
+  uint32_t lanes = 8;
+
+  /// The shape that suits a device (docs/design.md, "Tiles").
+  static TileShape for_device(const gpu::Device& device);
+};
+
+/// Size of an image in pixels.
+struct ImageSize {
+  uint32_t width = 0;
+  uint32_t height = 0;
+
+  uint64_t pixels() const { return static_cast<uint64_t>(width) * height; }
+};
+
+/// The projected Gaussians of a view and, for every tile, the list of those that touch it, near to far.
+///
+/// Per Gaussian: project. Then, for those that touch the image: sort by depth; write one instance per touched
+/// tile in that order; sort stably by tile. An instance is named by its place before the second sort, where
+/// the instances of one Gaussian lie side by side.
+class TileLists {
+ public:
+  TileLists(gpu::Device& device, const TileShape& shape);
+
+  /// Records everything for one view. Buffers grow first if the map or the image did.
+  void record(gpu::Recorder& recorder, const GaussianMap& map, const gpu::Array<glsl::CameraState>& camera,
+              const ImageSize& size);
+
+  /// Makes room for as many instances as the last submitted record() would have needed, and clears the
+  /// overflow flag. Returns whether there had been too little room, so that the work must be done again.
+  bool grow_after_overflow();
+  /// Room for instances; grow_after_overflow() raises it.
+  void reserve_instances(uint32_t capacity);
+
+  /// Numbers of the last submitted view.
+  glsl::RenderStatus read_status() const;
+
+  const TileShape& shape() const { return shape_; }
+  uint32_t tiles_x(const ImageSize& size) const { return (size.width + shape_.width - 1) / shape_.width; }
+  uint32_t tiles_y(const ImageSize& size) const { return (size.height + shape_.height - 1) / shape_.height; }
+
+  /// Workgroup size of passes over visible Gaussians, and the indirect arguments to dispatch them with.
+  static constexpr uint32_t kWorkgroup = 64;
+  static constexpr uint32_t kVisibleArgs = 0;
+  gpu::Array<gpu::DispatchArgs> dispatch_args;
+
+  gpu::Array<glsl::Splat> splats;           ///< per Gaussian of the map
+  gpu::Array<glsl::uint> visible_count;     ///< 1
+  gpu::Array<glsl::uint> visible_ids;       ///< per visible Gaussian, near to far: its index in the map
+  gpu::Array<glsl::uint> instance_offsets;  ///< per visible Gaussian: its first instance
+  gpu::Array<glsl::uint> sorted_counts;     ///< per visible Gaussian: its number of instances
+  gpu::Array<glsl::uint> instances;         ///< sorted by tile, near to far
+  gpu::Array<glsl::uint> instance_owners;   ///< per instance: its Gaussian's index in the map
+  gpu::Array<glsl::uvec2> tile_ranges;      ///< per tile: begin and end in `instances`
+  gpu::Array<glsl::RenderStatus> status;    ///< 1
+  uint32_t instance_capacity() const { return instance_capacity_; }
+
+ private:
+  void reserve(gpu::Recorder& recorder, const GaussianMap& map, const ImageSize& size);
+  void record_projection(gpu::Recorder& recorder, const GaussianMap& map,
+                         const gpu::Array<glsl::CameraState>& camera);
+  void record_instances(gpu::Recorder& recorder, const gpu::Array<glsl::CameraState>& camera, uint32_t tiles);
+  gpu::Pass<passes::project_splats>& projection(int sh_degree);
+
+  gpu::Device& device_;
+  TileShape shape_;
+  uint32_t instance_capacity_ = 0;
+  uint32_t gaussians_ = 0;
+
+  std::unique_ptr<gpu::Pass<passes::project_splats>> project_[4];  ///< per SH degree, made when first needed
+  gpu::Pass<passes::compact_visible> compact_;
+  gpu::Pass<passes::gather_tile_counts> gather_;
+  gpu::Pass<passes::emit_instances> emit_;
+  gpu::Pass<passes::find_tile_ranges> ranges_;
+  gpu::Pass<passes::prepare_dispatch> prepare_;
+  ExclusiveScan scan_;
+  RadixSort sort_;
+
+  gpu::Array<glsl::uint> tile_counts_;
+  gpu::Array<glsl::uint> visible_flags_;
+  gpu::Array<glsl::uint> visible_offsets_;
+  gpu::Array<glsl::uint> depth_keys_;
+  gpu::Array<glsl::uint> instance_total_;
+  gpu::Array<glsl::uint> instance_count_;
+  gpu::Array<glsl::uint> tile_keys_;
+};
+
+}  // namespace surefield

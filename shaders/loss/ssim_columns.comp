@@ -1,0 +1,46 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "ssim_columns.h"
+#include "ssim.glsl"
+
+// One invocation per strip of STRIP pixels of a column; neighbouring invocations take neighbouring columns.
+void main() {
+  const uint strips = (params.height + STRIP - 1) / STRIP;
+  const uint i = gl_GlobalInvocationID.x;
+  if (i >= strips * params.width) return;
+  const uint column = i % params.width;
+  const int first = int(i / params.width) * STRIP;
+
+  SsimMoments m[STRIP];
+  [[unroll]] for (int o = 0; o < STRIP; ++o) m[o] = SsimMoments(vec3(0), vec3(0), vec3(0), vec3(0), vec3(0));
+  [[unroll]] for (int p = 0; p < STRIP + 2 * WINDOW_RADIUS; ++p) {
+    const int row = first + p - WINDOW_RADIUS;
+    const bool inside = row >= 0 && row < int(params.height);
+    const SsimMoments s = moments[uint(clamp(row, 0, int(params.height) - 1)) * params.width + column];
+    [[unroll]] for (int o = max(0, p - 2 * WINDOW_RADIUS); o < min(STRIP, p + 1); ++o) {
+      const float w = inside ? WINDOW[p - o] : 0.0;
+      m[o].x += w * s.x;
+      m[o].y += w * s.y;
+      m[o].xx += w * s.xx;
+      m[o].yy += w * s.yy;
+      m[o].xy += w * s.xy;
+    }
+  }
+  float total = 0;
+  [[unroll]] for (int o = 0; o < STRIP; ++o) {
+    if (first + o >= int(params.height)) continue;
+    const SsimMoments s = m[o];
+    const vec3 a1 = 2 * s.x * s.y + SSIM_C1, a2 = 2 * (s.xy - s.x * s.y) + SSIM_C2;
+    const vec3 b1 = s.x * s.x + s.y * s.y + SSIM_C1;
+    const vec3 b2 = s.xx - s.x * s.x + s.yy - s.y * s.y + SSIM_C2;
+    const vec3 inverse = 1 / (b1 * b2);
+    const vec3 ssim = a1 * a2 * inverse;
+    SsimSlopes g;
+    g.x = 2 * s.y * (a2 - a1) * inverse - 2 * s.x * ssim * (1 / b1 - 1 / b2);
+    g.xx = -ssim / b2;
+    g.xy = 2 * a1 * inverse;
+    slopes[uint(first + o) * params.width + column] = g;
+    total += ssim.r + ssim.g + ssim.b;
+  }
+  ssim_partials[i] = total;
+}

@@ -1,0 +1,39 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "ssim_rows.h"
+#include "ssim.glsl"
+
+// One invocation per strip of STRIP pixels of a row: x counts strips of the whole image, row by row.
+void main() {
+  const uint strips = (params.width + STRIP - 1) / STRIP;
+  const uint strip = gl_GlobalInvocationID.x;
+  if (strip >= strips * params.height) return;
+  const int first = int(strip % strips) * STRIP;
+  const uint row = strip / strips * params.width;
+
+  SsimMoments m[STRIP];
+  [[unroll]] for (int o = 0; o < STRIP; ++o) m[o] = SsimMoments(vec3(0), vec3(0), vec3(0), vec3(0), vec3(0));
+  [[unroll]] for (int p = 0; p < STRIP + 2 * WINDOW_RADIUS; ++p) {
+    const int column = first + p - WINDOW_RADIUS;
+    const bool inside = column >= 0 && column < int(params.width);
+    const uint at = row + uint(clamp(column, 0, int(params.width) - 1));
+    const float mask = inside ? 1.0 : 0.0;
+    const vec3 x = mask * colour_opacity[at].rgb, y = mask * unpackUnorm4x8(sensor_colour[at]).rgb;
+    [[unroll]] for (int o = max(0, p - 2 * WINDOW_RADIUS); o < min(STRIP, p + 1); ++o) {
+      const float w = WINDOW[p - o];
+      m[o].x += w * x;
+      m[o].y += w * y;
+      m[o].xx += w * x * x;
+      m[o].yy += w * y * y;
+      m[o].xy += w * x * y;
+    }
+  }
+  uint medians = 0;
+  [[unroll]] for (int o = 0; o < STRIP; ++o) {
+    if (first + o >= int(params.width)) continue;
+    const uint at = row + uint(first + o);
+    moments[at] = m[o];
+    medians += geometry[at].y > 0 ? 1 : 0;
+  }
+  atomicAdd(median_count[0], medians);
+}

@@ -1,0 +1,25 @@
+// Gradient of the pose alone, summed over each tile; nothing is written per Gaussian.
+#include "splat_types.h"
+
+#define PASS blend_backward_pose
+#define PASS_CONSTANTS(C)                          \
+  C(1, TILE_W, 8) C(2, TILE_H, 8) C(3, LANES, 8)   \
+  C(4, SH_DEGREE, 0)                               \
+  C(5, FULL_POSE_GRADIENT, 1) /* 0: light, through the centre and the depth alone */
+#define PASS_PARAMS(P) P(vec3, background)
+#define PASS_BINDINGS(READ, WRITE, UPDATE)   \
+  READ(0, CameraState, camera)               \
+  READ(1, Splat, splats)                     \
+  READ(2, uint, instances)                   \
+  READ(3, uint, instance_owners)             \
+  READ(4, uvec2, tile_ranges)                \
+  READ(5, float, sensor_depth)               \
+  READ(6, vec4, colour_opacity)              \
+  READ(7, vec4, geometry)                    \
+  READ(8, PixelGradient, pixel_gradients)    \
+  READ(9, vec3, means)                       \
+  READ(10, vec3, log_scales)                 \
+  READ(11, vec4, rotations)                  \
+  READ(12, vec3, sh)                         \
+  WRITE(13, PoseGradient, pose_partials)
+#include "declare_pass.h"

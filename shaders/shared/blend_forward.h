@@ -1,0 +1,19 @@
+// Blends each tile's Gaussians near to far into the rendered images.
+#include "splat_types.h"
+
+#define PASS blend_forward
+#define PASS_CONSTANTS(C)                         \
+  C(1, TILE_W, 8) C(2, TILE_H, 8) C(3, LANES, 8)  \
+  C(4, WITH_GEOMETRY, 1) /* also median depth, uncertainty and dominator */
+#define PASS_PARAMS(P) P(vec3, background)
+#define PASS_BINDINGS(READ, WRITE, UPDATE)                          \
+  READ(0, CameraState, camera)                                      \
+  READ(1, Splat, splats)                                            \
+  READ(2, uint, instances)                                          \
+  READ(3, uint, instance_owners)                                    \
+  READ(4, uvec2, tile_ranges)                                       \
+  READ(5, float, sensor_depth)                                      \
+  WRITE(6, vec4, colour_opacity)                                    \
+  WRITE(7, vec4, geometry) /* D_alpha, D_median, U, weight of the dominator */ \
+  WRITE(8, uint, dominators)
+#include "declare_pass.h"

@@ -1,0 +1,12 @@
+// Lists the visible Gaussians, in order of index, with their depth as sort key.
+#include "splat_types.h"
+
+#define PASS compact_visible
+#define PASS_PARAMS(P) P(uint, count)
+#define PASS_BINDINGS(READ, WRITE, UPDATE) \
+  READ(0, Splat, splats)                   \
+  READ(1, uint, visible_flags)             \
+  READ(2, uint, visible_offsets)           \
+  WRITE(3, uint, depth_keys)               \
+  WRITE(4, uint, visible_ids)
+#include "declare_pass.h"

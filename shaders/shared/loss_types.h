@@ -1,0 +1,62 @@
+// Records of the loss passes.
+#ifndef SUREFIELD_SHARED_LOSS_TYPES_H
+#define SUREFIELD_SHARED_LOSS_TYPES_H
+
+#include "splat_types.h"
+
+SHARED_TYPES_BEGIN
+
+/// Horizontally blurred moments of the rendered (x) and the sensor's (y) colour, for SSIM.
+struct SsimMoments {
+  vec3 x;
+  vec3 y;
+  vec3 xx;
+  vec3 yy;
+  vec3 xy;
+};
+
+/// Derivatives of SSIM at a pixel with respect to the blurred moments x, xx and xy.
+struct SsimSlopes {
+  vec3 x;
+  vec3 xx;
+  vec3 xy;
+};
+
+/// Sums over pixels of the terms of the mapping loss (paper eq. 18), before their weights and means.
+struct LossSums {
+  float colour;   // sum over channels of |I - I'|
+  float ssim;     // sum over channels of SSIM
+  float depth;
+  float align;
+  float variance;
+  float medians;  // pixels with a median depth
+};
+
+/// Masked sums of the tracking loss (paper eq. 19).
+struct TrackSums {
+  float colour;         // sum over pixels of the mean over channels of |I - I'|
+  float colour_pixels;
+  float depth;
+  float depth_pixels;
+};
+
+/// Bins of the histogram of residuals: 64 to an octave from 2^-20 to 2^4.
+SHARED_CONST uint RESIDUAL_OCTAVES = 24;
+SHARED_CONST uint RESIDUAL_BINS_PER_OCTAVE = 64;
+SHARED_CONST uint RESIDUAL_BINS = RESIDUAL_OCTAVES * RESIDUAL_BINS_PER_OCTAVE;
+
+/// The pose being tracked: Adam's state in the tangent space and the best pose so far.
+struct TrackState {
+  PoseGradient first_moment;
+  PoseGradient second_moment;
+  CameraState best_camera;
+  float best_loss;
+  float last_loss;
+  float last_update;     // norm of the last step, in radians and metres
+  float valid_fraction;  // pixels in the depth mask over pixels with sensor depth, at the best pose
+  uint steps;
+};
+
+SHARED_TYPES_END
+
+#endif

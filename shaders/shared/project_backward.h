@@ -1,0 +1,23 @@
+// From the sums of the tiles to the gradient of every parameter of a visible Gaussian, and of the pose.
+#include "splat_types.h"
+
+#define PASS project_backward
+#define PASS_CONSTANTS(C) C(1, SH_DEGREE, 0) C(2, FULL_POSE_GRADIENT, 1)
+#define PASS_PARAMS(P) P(float, weight_isotropy) P(float, isotropy_epsilon)
+#define PASS_BINDINGS(READ, WRITE, UPDATE)       \
+  READ(0, CameraState, camera)                   \
+  READ(1, vec3, means)                           \
+  READ(2, vec3, log_scales)                      \
+  READ(3, vec4, rotations)                       \
+  READ(4, vec3, sh)                              \
+  READ(5, Splat, splats)                         \
+  READ(6, uint, visible_count)                   \
+  READ(7, uint, visible_ids)                     \
+  READ(8, uint, instance_offsets)                \
+  READ(9, uint, sorted_counts)                   \
+  READ(10, SplatGradient, instance_gradients)    \
+  WRITE(11, GaussianGradient, gaussian_gradients) \
+  WRITE(12, vec3, sh_gradients)                  \
+  WRITE(13, PoseGradient, pose_partials)         \
+  UPDATE(14, vec2, densification) /* sum of the norm of the screen gradient, times seen */
+#include "declare_pass.h"

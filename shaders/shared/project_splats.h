@@ -1,0 +1,17 @@
+// Projects every Gaussian and counts the tiles that its footprint touches.
+#include "splat_types.h"
+
+#define PASS project_splats
+#define PASS_CONSTANTS(C) C(1, TILE_W, 8) C(2, TILE_H, 8) C(3, SH_DEGREE, 0)
+#define PASS_PARAMS(P) P(uint, count)
+#define PASS_BINDINGS(READ, WRITE, UPDATE) \
+  READ(0, CameraState, camera)             \
+  READ(1, vec3, means)                     \
+  READ(2, vec3, log_scales)                \
+  READ(3, vec4, rotations)                 \
+  READ(4, float, opacity_logits)           \
+  READ(5, vec3, sh)                        \
+  WRITE(6, Splat, splats)                  \
+  WRITE(7, uint, tile_counts)              \
+  WRITE(8, uint, visible_flags)
+#include "declare_pass.h"

@@ -1,0 +1,75 @@
+// Records that the splatting passes share. Units: metres and pixels; conventions: docs/method.md.
+#ifndef SUREFIELD_SHARED_SPLAT_TYPES_H
+#define SUREFIELD_SHARED_SPLAT_TYPES_H
+
+#include "language.h"
+
+SHARED_TYPES_BEGIN
+
+/// A camera as kernels read it: x_c = R x_w + t with R given by rows, then u = fx x/z + cx, v = fy y/z + cy.
+struct CameraState {
+  vec3 rotation0;
+  vec3 rotation1;
+  vec3 rotation2;
+  vec3 translation;
+  float fx;
+  float fy;
+  float cx;
+  float cy;
+  uint width;
+  uint height;
+};
+
+/// A Gaussian projected to the image. A depth that varies over the footprint would add its two slopes here.
+struct Splat {
+  vec2 centre;    // pixels
+  vec3 conic;     // inverse of the 2D covariance: xx, xy, yy
+  float opacity;  // after the sigmoid; 0 where culled
+  vec3 colour;
+  float depth;    // camera z of the centre
+};
+
+/// What a tile sums up for one of its Gaussians while going backward, with p = -d^T conic d / 2 the exponent at pixel
+/// offset d = pixel - centre, and g = dL/dp: everything that does not need the pixel is left to project_backward.
+struct SplatGradient {
+  float exponent;   // sum g
+  vec2 first;       // sum g d
+  vec3 second;      // sum g (dx dx, dx dy, dy dy)
+  vec3 colour;      // dL/dcolour
+  float depth;      // dL/dz
+};
+
+/// Gradient of the loss with respect to what is rendered at one pixel.
+struct PixelGradient {
+  vec3 colour;
+  float opacity;
+  float depth;             // D_alpha
+  float depth_normalised;  // D_alpha / O
+  float depth_median;
+  float uncertainty;
+};
+
+/// Gradient of the loss with respect to a Gaussian's parameters, as optimised (SH apart).
+struct GaussianGradient {
+  vec3 mean;
+  vec3 log_scale;
+  vec4 rotation;
+  float opacity_logit;
+};
+
+/// Gradient of the loss with respect to the pose: R <- Exp(phi) R and t apart, {so(3)|T}.
+struct PoseGradient {
+  vec3 rotation;
+  vec3 translation;
+};
+
+/// Device-side bookkeeping of one render.
+struct RenderStatus {
+  uint visible;    // Gaussians that touch the image
+  uint instances;  // (Gaussian, tile) pairs
+  uint overflow;   // 1 once there were more instances than room; passes that update parameters then do nothing
+};
+
+SHARED_TYPES_END
+
+#endif

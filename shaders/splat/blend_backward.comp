@@ -1,0 +1,31 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "blend_backward.h"
+#include "quaternion.glsl"
+#include "projection.glsl"
+#include "tile_pixels.glsl"
+#include "backward_pixels.glsl"
+
+// One subgroup per tile, as in blend_forward. Each lane sums the gradients of the Gaussian at hand over its own pixels;
+// a transposed butterfly sums them over the tile and leaves them in the lane that loaded the Gaussian, which writes them
+// to the instance's slot. No atomics: the result does not depend on the order in which tiles run.
+void main() {
+  const CameraState c = camera[0];
+  const uint tile = gl_WorkGroupID.y * ((c.width + TILE_W - 1) / TILE_W) + gl_WorkGroupID.x;
+  const uvec2 range = tile_ranges[tile];
+
+  load_pixels(c, params.background);
+
+  for (uint batch = range.x; batch < range.y; batch += LANES) {
+    const uint mine = batch + batch_order(gl_SubgroupInvocationID);
+    uint slot = 0;
+    Splat my = Splat(vec2(0), vec3(0), 0.0, vec3(0), 0.0);
+    if (mine < range.y) {
+      slot = instances[mine];
+      my = splats[instance_owners[slot]];
+    }
+    const SplatGradient total = visit_batch(my);
+    if (mine < range.y) instance_gradients[slot] = total;
+    if (!tile_is_open()) break;
+  }
+}

@@ -1,0 +1,37 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "emit_instances.h"
+#include "quaternion.glsl"
+#include "projection.glsl"
+#include "tiles.glsl"
+
+// One invocation per visible Gaussian, in depth order: writes its instances one after the other, so that a stable sort
+// by tile alone leaves each tile's list near to far. An instance is known by its place in this list; the backward pass
+// stores its sums there. When there is not room for all of them, none is written and the overflow is flagged.
+void main() {
+  const uint v = gl_GlobalInvocationID.x;
+  const uint total = instance_total[0];
+  const bool fits = total <= params.capacity;
+  if (v == 0) {
+    status[0].visible = visible_count[0];
+    status[0].instances = total;
+    if (!fits) status[0].overflow = 1;
+    instance_count[0] = fits ? total : 0;
+  }
+  if (v >= visible_count[0] || !fits) return;
+
+  const CameraState c = camera[0];
+  const uint id = visible_ids[v];
+  const Footprint f = footprint_of(c, splats[id]);
+  const uint columns = tiles_of(c).x;
+  uint slot = instance_offsets[v];
+  for (uint row = f.rows.x; row < f.rows.y; ++row) {
+    const uvec2 touched = touched_tiles(f, c, row);
+    for (uint column = touched.x; column < touched.y; ++column) {
+      tile_keys[slot] = row * columns + column;
+      instances[slot] = slot;
+      instance_owners[slot] = id;
+      ++slot;
+    }
+  }
+}
