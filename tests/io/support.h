@@ -28,9 +28,11 @@ class TemporaryFolder {
   const std::filesystem::path& path() const { return path_; }
   std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
 
-  /// Writes a file of the folder, with the folders above it.
+  /// Writes a file of the folder, with the folders above it. The file is always a new one: cutting an old one
+  /// to nothing makes some file systems wait for the disk.
   std::filesystem::path write(const std::string& name, const std::string& content) const {
     std::filesystem::create_directories((path_ / name).parent_path());
+    std::filesystem::remove(path_ / name);
     std::ofstream(path_ / name, std::ios::binary) << content;
     return path_ / name;
   }
