@@ -1,0 +1,48 @@
+#pragma once
+
+#include "engine/io/config.h"
+#include "engine/splat/engine.h"
+
+namespace surefield {
+
+/// When a frame becomes a keyframe and which keyframes are optimised together (paper section 3.4).
+struct KeyframeSettings {
+  int interval = 15;       ///< every so many frames
+  int window = 4;          ///< k: current, most recent, and the k - 2 that overlap most
+  int past_keyframes = 2;  ///< random older keyframes among the steps, against forgetting
+};
+
+/// How new Gaussians are born (paper section 3.3).
+struct SpawnSettings {
+  double opacity_below = 0.5;  ///< psi: a pixel whose rendered O is below spawns one
+  double front_factor =
+      50;  ///< also where the map lies behind the sensor depth by so many median errors; 0: never
+  double opacity = 0.5;    ///< at birth
+  double footprint = 1.0;  ///< radius at birth, in pixels at its depth
+};
+
+/// When tracking counts as lost.
+struct LossDetectionSettings {
+  double loss_jump = 4;        ///< loss above so many times the mean of the last frames
+  double minimum_valid = 0.1;  ///< fraction of the pixels with sensor depth that took part
+};
+
+/// Everything that shapes a run; one field per key of configs/base.yaml.
+struct SlamSettings {
+  int seed = 1;                         ///< drives every random choice
+  double depth_max = 5;                 ///< metres; depth beyond is invalid
+  int first_iterations = 400;           ///< mapping steps on the first frame
+  int mapping_iterations = 40;          ///< mapping steps per keyframe
+  int first_tracking_iterations = 100;  ///< tracking steps of the first tracked frame
+  TrackingSettings tracking;
+  MappingSettings mapping;
+  DensifySettings densify;
+  KeyframeSettings keyframes;
+  SpawnSettings spawn;
+  LossDetectionSettings lost;
+
+  /// Binds every key (docs/design.md) to its field; the settings must outlive the schema.
+  void bind(ConfigSchema& schema);
+};
+
+}  // namespace surefield

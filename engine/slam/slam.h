@@ -1,0 +1,64 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "engine/io/frame.h"
+#include "engine/io/trajectory.h"
+#include "engine/slam/settings.h"
+
+namespace surefield {
+
+/// What happened to one frame.
+struct FrameReport {
+  int index = 0;         ///< Frame::index
+  double timestamp = 0;  ///< seconds
+  Pose world_to_camera = Pose::Identity();
+  bool keyframe = false;
+  bool lost = false;  ///< tracking failed even after the re-tries; the pose is the best found
+  int retries = 0;    ///< other starting poses that were tried
+  double tracking_loss = 0;
+  double valid_fraction = 0;  ///< pixels that took part in tracking, of those with sensor depth
+  int tracking_iterations = 0;
+  double tracking_ms = 0;
+  int mapping_iterations = 0;
+  double mapping_ms = 0;
+  uint32_t gaussians = 0;  ///< in the map after this frame
+};
+
+/// RGB-D SLAM (the paper's system): feed frames in order, get poses and the map.
+///
+///   Slam slam(settings, intrinsics);
+///   while (auto frame = stream.next()) slam.feed(*frame);
+///   write_trajectory("trajectory.txt", slam.trajectory());
+///   write_ply("map.ply", slam.map());
+class Slam {
+ public:
+  /// `intrinsics` are those of the frames that will be fed. Throws gpu::Error when no device is usable.
+  Slam(const SlamSettings& settings, const Intrinsics& intrinsics, const EngineOptions& options = {});
+  ~Slam();
+
+  /// Tracks the frame and, if it becomes a keyframe, extends and optimises the map. Throws
+  /// std::invalid_argument when the images do not have the size of the intrinsics. A frame that cannot be
+  /// used throws and changes nothing.
+  const FrameReport& feed(const Frame& frame);
+
+  /// Poses of all frames so far, camera to world, in the first camera's frame. Keyframes have their refined
+  /// poses, and the frames between follow the keyframe that they were tracked after.
+  Trajectory trajectory() const;
+  /// The keyframes alone.
+  Trajectory keyframes() const;
+  /// The Gaussian map.
+  GaussianCloud map() const;
+  /// Renders the map; world frame as in trajectory().
+  RenderImages render(const Camera& camera) const;
+
+  const std::vector<FrameReport>& reports() const;
+  EngineReport engine_report() const;
+
+ private:
+  struct Implementation;
+  std::unique_ptr<Implementation> implementation_;
+};
+
+}  // namespace surefield

@@ -1,0 +1,162 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "engine/splat/camera.h"
+#include "engine/splat/gaussian_cloud.h"
+#include "engine/splat/render_images.h"
+
+namespace surefield {
+
+/// Where and how the engine runs.
+struct EngineOptions {
+  std::string device;     ///< index or part of a name; empty: the best there is
+  bool validate = false;  ///< Vulkan's validation layer, for debugging
+};
+
+/// Which rendered depth the depth terms of a loss use.
+enum class DepthKind { Alpha, Normalised };
+
+/// Which terms the gradient of the pose has: every one, or those through the projected centre and the depth.
+enum class PoseGradient { Full, Light };
+
+/// A frame that the engine holds on the device.
+using FrameHandle = int;
+
+/// Images of one frame in host memory, row-major.
+struct FrameView {
+  int width = 0;
+  int height = 0;
+  const uint8_t* colour = nullptr;  ///< RGB, 3 bytes a pixel
+  const float* depth = nullptr;     ///< metres; invalid where not finite, not positive or beyond depth_max
+  float depth_max = 0;              ///< metres
+};
+
+/// How a pose is tracked (paper eq. 19 and 20).
+struct TrackingSettings {
+  int iterations = 25;
+  double rate_rotation = 0.0015;      ///< Adam's step, radians
+  double rate_translation = 0.00215;  ///< Adam's step, metres
+  double weight_colour = 1.0;         ///< lambda_1
+  double weight_depth = 0.6;          ///< lambda_2
+  double minimum_opacity = 0.99;      ///< pixels take part where O is above
+  double outlier_factor = 10;         ///< and where the residual is below this many times the median
+  DepthKind depth = DepthKind::Normalised;
+  PoseGradient pose_gradient = PoseGradient::Full;
+  double stop_below = 2e-5;  ///< stop when steps of all pose numbers have become smaller (radians, metres)
+};
+
+/// What tracking found.
+struct TrackingResult {
+  Pose world_to_camera = Pose::Identity();  ///< the pose of the lowest loss
+  double loss = 0;                          ///< that loss
+  double valid_fraction = 0;                ///< pixels in the depth mask, of all with sensor depth
+  int iterations = 0;
+  double milliseconds = 0;
+};
+
+/// How the map is optimised (paper eq. 18 and 21). Rates are Adam's steps.
+struct MappingSettings {
+  double weight_colour = 1.0;
+  double weight_ssim = 0.1;
+  double weight_depth = 0.8;
+  double weight_align = 0.5;
+  double weight_isotropy = 0.1;
+  double weight_variance = 0.5;
+  DepthKind depth = DepthKind::Alpha;
+  double rate_mean = 3e-4;       ///< times extent, metres
+  double rate_log_scale = 1e-4;  ///< times extent
+  double rate_rotation = 1e-3;
+  double rate_opacity = 5e-2;
+  double rate_colour = 2.5e-3;            ///< SH of degree 0; the higher ones move at a twentieth of it
+  double rate_pose_rotation = 0.0005;     ///< radians
+  double rate_pose_translation = 0.0007;  ///< metres
+  PoseGradient pose_gradient = PoseGradient::Full;
+};
+
+/// A keyframe that takes part in mapping.
+struct MappingView {
+  FrameHandle frame = 0;
+  Camera camera;  ///< the pose is refined in place where `refine_pose` says so
+  bool refine_pose = false;
+};
+
+/// What a mapping call did.
+struct MappingResult {
+  double loss = 0;  ///< of the last step, without L_iso
+  int iterations = 0;
+  double milliseconds = 0;
+};
+
+/// When Gaussians are split, cloned and removed (3D Gaussian splatting's adaptive control).
+struct DensifySettings {
+  double gradient_threshold = 2e-3;  ///< mean screen gradient, in units of half the image
+  double split_scale = 0.01;         ///< larger ones are split, smaller ones cloned; times extent, metres
+  double minimum_opacity = 0.005;    ///< fainter ones are removed
+  double maximum_scale = 0.1;        ///< larger ones are removed; times extent, metres
+  double extent = 1;                 ///< size of the scene, metres
+  bool grow = true;                  ///< false: remove only
+  uint64_t seed = 0;                 ///< where split children fall
+};
+
+/// How many Gaussians a densification added and removed.
+struct DensifyResult {
+  int cloned = 0;
+  int split = 0;
+  int pruned = 0;
+};
+
+/// What the engine runs on and needs.
+struct EngineReport {
+  std::string device;
+  std::string driver;
+  uint64_t map_bytes = 0;          ///< parameters of the Gaussians
+  uint64_t device_peak_bytes = 0;  ///< most device memory in use at any time
+  std::vector<std::string> validation_messages;
+};
+
+/// The Gaussian field and everything that is done to it, in a handful of verbs on plain data. All heavy work
+/// runs as compute kernels on a Vulkan device; gpu::Error is thrown when that fails. Not thread-safe.
+class SplatEngine {
+ public:
+  explicit SplatEngine(const EngineOptions& options = {});
+  ~SplatEngine();
+
+  /// Copies a frame to the device, or releases it.
+  FrameHandle load(const FrameView& frame);
+  void release(FrameHandle frame);
+
+  /// Replaces the map, adds Gaussians to it, reads it back.
+  void assign(const GaussianCloud& cloud);
+  void insert(const GaussianCloud& cloud);
+  GaussianCloud map() const;
+  uint32_t size() const;
+
+  /// Renders a camera; with a frame, its depth gives the uncertainty.
+  RenderImages render(const Camera& camera) const;
+  RenderImages render(const Camera& camera, FrameHandle frame) const;
+  RenderImages render(const Camera& camera, std::span<const float> sensor_depth) const;
+
+  /// Finds the pose of a frame in the fixed map, starting from that of `start`.
+  TrackingResult track(FrameHandle frame, const Camera& start, const TrackingSettings& settings);
+
+  /// Optimises the map over views[order[0]], views[order[1]], ..., one step each, and the poses of the views
+  /// that ask for it. `extent` (metres) scales the rates of means and scales.
+  MappingResult optimise(std::span<MappingView> views, std::span<const int> order,
+                         const MappingSettings& settings, double extent);
+
+  /// Splits, clones and removes; the statistics that decide are those gathered since the last call.
+  DensifyResult densify(const DensifySettings& settings);
+
+  EngineReport report() const;
+
+ private:
+  struct Implementation;
+  std::unique_ptr<Implementation> implementation_;
+};
+
+}  // namespace surefield
