@@ -67,9 +67,9 @@ double percentile(std::vector<double> values, double fraction) {
 }  // namespace
 
 TEST_CASE("the true poses carry the pixels of a frame onto the same surfaces five frames later") {
-  const SyntheticDataset dataset;
+  const SyntheticDataset dataset({.width = 160, .height = 120});
   const WarpResiduals residuals = warp(dataset, 10, 15);
-  const double total = 320.0 * 240.0;
+  const double total = 160.0 * 120.0;
   CHECK(static_cast<double>(residuals.depth.size()) > 0.75 * total);
   CHECK(residuals.hidden < 0.1 * total);
   CHECK(percentile(residuals.depth, 0.5) < 1e-5);
@@ -78,7 +78,7 @@ TEST_CASE("the true poses carry the pixels of a frame onto the same surfaces fiv
 }
 
 TEST_CASE("the frames are textured and neither dark nor burnt out") {
-  const SyntheticDataset dataset;
+  const SyntheticDataset dataset({.width = 160, .height = 120});
   for (const int i : {0, 59}) {
     const Frame frame = *dataset.load(i).frame;
     cv::Scalar mean, deviation;
@@ -88,7 +88,7 @@ TEST_CASE("the frames are textured and neither dark nor burnt out") {
       CHECK(mean[c] < 200);
       CHECK(deviation[c] > 20);
     }
-    CHECK(cv::countNonZero((frame.depth > 0.3) & (frame.depth < 6.5)) == 320 * 240);
+    CHECK(cv::countNonZero((frame.depth > 0.3) & (frame.depth < 6.5)) == 160 * 120);
   }
 }
 
