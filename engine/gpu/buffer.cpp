@@ -114,9 +114,13 @@ void Buffer::release() {
   buffer_ = VK_NULL_HANDLE;
 }
 
+uint64_t Buffer::grown_bytes(uint64_t bytes) const {
+  return std::max(bytes, std::min(bytes_ + bytes_ / 2, device_->limits().storage_range_bytes / 16 * 16));
+}
+
 bool Buffer::reserve(uint64_t bytes, bool keep) {
   if (bytes <= bytes_) return false;
-  Buffer larger(*device_, name_, std::max(bytes, bytes_ + bytes_ / 2));
+  Buffer larger(*device_, name_, grown_bytes(bytes));
   if (keep) {
     Recorder recorder(*device_);
     recorder.copy({this, 0, bytes_}, {&larger, 0, bytes_});

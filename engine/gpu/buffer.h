@@ -21,9 +21,12 @@ class Buffer {
   uint64_t bytes() const { return bytes_; }
   const std::string& name() const { return name_; }
 
-  /// Replaces the buffer by one of at least `bytes` if it is smaller (it grows by half, so that repeated
-  /// growth is cheap). With `keep`, the contents move along. Handles taken before are void when it returns
-  /// true.
+  /// The size to replace the buffer by when it must hold `bytes`: half as large again, so that repeated
+  /// growth is cheap, but not beyond what one binding may span unless `bytes` are.
+  uint64_t grown_bytes(uint64_t bytes) const;
+
+  /// Replaces the buffer by one of at least `bytes` (see grown_bytes) if it is smaller. With `keep`, the
+  /// contents move along. Handles taken before are void when it returns true.
   bool reserve(uint64_t bytes, bool keep);
 
   /// Copies host memory into the buffer at byte `offset`, or back; waits for the device.

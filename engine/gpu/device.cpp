@@ -52,6 +52,7 @@ DeviceLimits read_limits(VkPhysicalDevice physical, const DeviceReport& report) 
                                  (v13.requiredSubgroupSizeStages & VK_SHADER_STAGE_COMPUTE_BIT);
   limits.workgroup_invocations = properties.limits.maxComputeWorkGroupInvocations;
   limits.workgroups_x = properties.limits.maxComputeWorkGroupCount[0];
+  limits.workgroups_y = properties.limits.maxComputeWorkGroupCount[1];
   limits.shared_memory_bytes = properties.limits.maxComputeSharedMemorySize;
   limits.storage_range_bytes = properties.limits.maxStorageBufferRange;
   limits.storage_offset_alignment = properties.limits.minStorageBufferOffsetAlignment;

@@ -46,6 +46,7 @@ struct DeviceLimits {
   uint32_t subgroup_size = 0;          ///< every pipeline is created for this size
   uint32_t workgroup_invocations = 0;  ///< largest workgroup
   uint32_t workgroups_x = 0;           ///< largest dispatch in x
+  uint32_t workgroups_y = 0;           ///< largest dispatch in y
   uint32_t shared_memory_bytes = 0;
   uint64_t storage_range_bytes = 0;  ///< largest storage-buffer binding
   uint64_t storage_offset_alignment = 0;

@@ -137,8 +137,8 @@ VkDescriptorSet Recorder::allocate_set(VkDescriptorSetLayout layout) {
   info.descriptorSetCount = 1;
   info.pSetLayouts = &layout;
   VkDescriptorSet set = VK_NULL_HANDLE;
-  if (!descriptor_pools_.empty()) {
-    info.descriptorPool = descriptor_pools_.back();
+  for (; pools_full_ < descriptor_pools_.size(); ++pools_full_) {
+    info.descriptorPool = descriptor_pools_[pools_full_];
     if (vkAllocateDescriptorSets(device_.handle(), &info, &set) == VK_SUCCESS) return set;
   }
   const VkDescriptorPoolSize size{VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, kSetsPerPool * 16};
@@ -162,7 +162,7 @@ void Recorder::timestamp(const char* pass) {
 }
 
 void Recorder::run(const Pipeline& pass, uint32_t groups_x, uint32_t groups_y) {
-  if (groups_x > device_.limits().workgroups_x || groups_y > device_.limits().workgroups_x)
+  if (groups_x > device_.limits().workgroups_x || groups_y > device_.limits().workgroups_y)
     throw Error(Error::Kind::Limit, fmt::format("pass {}: {} x {} workgroups are more than the device allows",
                                                 pass.name(), groups_x, groups_y));
   timestamp(pass.name());
@@ -170,19 +170,27 @@ void Recorder::run(const Pipeline& pass, uint32_t groups_x, uint32_t groups_y) {
   timestamp(pass.name());
 }
 
-void Recorder::run_indirect(const Pipeline& pass, const Buffer& args, uint64_t offset) {
+void Recorder::run_indirect(const Pipeline& pass, const Slice& group_counts) {
   timestamp(pass.name());
-  vkCmdDispatchIndirect(commands_, args.handle(), offset);
+  vkCmdDispatchIndirect(commands_, group_counts.buffer->handle(), group_counts.offset);
   timestamp(pass.name());
 }
 
+void Recorder::check_range(const Slice& range, const char* doing) {
+  if (range.offset + range.bytes > range.buffer->bytes())
+    throw Error(Error::Kind::Limit, fmt::format("{} beyond the end of {}", doing, range.buffer->name()));
+}
+
 void Recorder::fill(const Slice& range, uint32_t value) {
+  check_range(range, "filling");
   const VkBuffer handle = range.buffer->handle();
   touch({}, {&handle, 1});
   vkCmdFillBuffer(commands_, handle, range.offset, range.bytes, value);
 }
 
 void Recorder::copy(const Slice& source, const Slice& target) {
+  check_range(source, "copying from");
+  check_range({target.buffer, target.offset, source.bytes}, "copying to");
   const VkBuffer from = source.buffer->handle(), to = target.buffer->handle();
   touch({&from, 1}, {&to, 1});
   copy_raw(from, source.offset, to, target.offset, source.bytes);
@@ -229,6 +237,7 @@ std::vector<PassTime> Recorder::submit() {
   read_.clear();
   written_.clear();
   for (VkDescriptorPool pool : descriptor_pools_) vkResetDescriptorPool(device_.handle(), pool, 0);
+  pools_full_ = 0;
   check(vkResetCommandPool(device_.handle(), pool_, 0), "resetting a command pool");
   begin();
   return times;

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <algorithm>
 #include <string>
 #include <unordered_set>
 #include <utility>
@@ -51,8 +50,10 @@ class Recorder {
   void dispatch_indirect(const Pass<P>& pass, const Array<DispatchArgs>& args, uint32_t index,
                          const typename P::Bindings& bindings, const typename P::Params& params) {
     const auto slices = P::slices(bindings);
+    const Slice group_counts{&args.buffer(), index * sizeof(DispatchArgs), sizeof(DispatchArgs)};
+    check_range(group_counts, "dispatching indirectly");
     prepare(pass, slices, &params, &args.buffer());
-    run_indirect(pass, args.buffer(), index * sizeof(DispatchArgs));
+    run_indirect(pass, group_counts);
   }
 
   /// Sets every 32-bit word of a range to `value`.
@@ -65,13 +66,13 @@ class Recorder {
   /// Copies `source.bytes` bytes.
   void copy(const Slice& source, const Slice& target);
 
-  /// Grows `array` to at least `count` entries (by half at least, contents are lost) while work is being
-  /// recorded: what was recorded before goes on using the old memory, which lives until it has been
-  /// submitted.
+  /// Grows `array` to at least `count` entries while work is being recorded; the contents are lost. What was
+  /// recorded before goes on using the old memory, which lives until it has been submitted.
   template <class T>
   void reserve(Array<T>& array, uint64_t count) {
     if (count <= array.capacity()) return;
-    Array<T> larger(device_, array.buffer().name(), std::max(count, array.capacity() + array.capacity() / 2));
+    const uint64_t bytes = array.buffer().grown_bytes(count * sizeof(T));
+    Array<T> larger(device_, array.buffer().name(), (bytes + sizeof(T) - 1) / sizeof(T));
     std::swap(array, larger);
     retired_.push_back(std::move(larger.buffer()));
   }
@@ -91,7 +92,8 @@ class Recorder {
   void bind(const Pipeline& pass, std::span<const Slice> slices);
   VkDescriptorSet allocate_set(VkDescriptorSetLayout layout);
   void run(const Pipeline& pass, uint32_t groups_x, uint32_t groups_y);
-  void run_indirect(const Pipeline& pass, const Buffer& args, uint64_t offset);
+  void run_indirect(const Pipeline& pass, const Slice& group_counts);
+  static void check_range(const Slice& range, const char* doing);
   void timestamp(const char* pass);
   void touch(std::span<const VkBuffer> reads, std::span<const VkBuffer> writes);
   std::vector<PassTime> read_times();
@@ -100,6 +102,7 @@ class Recorder {
   VkCommandPool pool_ = VK_NULL_HANDLE;
   VkCommandBuffer commands_ = VK_NULL_HANDLE;
   std::vector<VkDescriptorPool> descriptor_pools_;
+  std::size_t pools_full_ = 0;            ///< so many of them, from the first on, have no set left
   std::unordered_set<VkBuffer> read_;     ///< read since the last barrier
   std::unordered_set<VkBuffer> written_;  ///< written since the last barrier
   VkQueryPool queries_ = VK_NULL_HANDLE;
