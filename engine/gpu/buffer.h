@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "engine/gpu/device.h"
+#include "engine/gpu/glsl_types.h"
 
 namespace surefield::gpu {
 
@@ -82,6 +83,13 @@ struct Slice {
   uint64_t bytes;
 };
 
+template <class T>
+class Ref;
+
+/// The handle of any array seen as 32-bit words, for passes that copy whatever they are given.
+template <class T>
+Ref<glsl::uint> as_words(const Array<T>& array);
+
 /// A typed, whole-array handle: what a pass's Bindings consist of. It has no default, so that a forgotten
 /// buffer does not compile, and takes only an Array of the declared type.
 template <class T>
@@ -92,7 +100,17 @@ class Ref {
   const Slice& slice() const { return slice_; }
 
  private:
+  explicit Ref(const Slice& slice) : slice_(slice) {}
+  template <class U>
+  friend Ref<glsl::uint> as_words(const Array<U>& array);
+
   Slice slice_;
 };
+
+template <class T>
+Ref<glsl::uint> as_words(const Array<T>& array) {
+  static_assert(sizeof(T) % sizeof(glsl::uint) == 0);
+  return Ref<glsl::uint>(Slice{&array.buffer(), 0, array.buffer().bytes()});
+}
 
 }  // namespace surefield::gpu

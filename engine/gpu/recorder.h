@@ -72,9 +72,14 @@ class Recorder {
   void reserve(Array<T>& array, uint64_t count) {
     if (count <= array.capacity()) return;
     const uint64_t bytes = array.buffer().grown_bytes(count * sizeof(T));
-    Array<T> larger(device_, array.buffer().name(), (bytes + sizeof(T) - 1) / sizeof(T));
-    std::swap(array, larger);
-    retired_.push_back(std::move(larger.buffer()));
+    replace(array, Array<T>(device_, array.buffer().name(), (bytes + sizeof(T) - 1) / sizeof(T)));
+  }
+
+  /// Puts `successor` in the place of `array`; what was recorded before goes on using the old memory.
+  template <class T>
+  void replace(Array<T>& array, Array<T> successor) {
+    std::swap(array, successor);
+    retired_.push_back(std::move(successor.buffer()));
   }
 
   /// Copies between raw handles without tracking; for staging buffers, alone in their recorder.
@@ -108,7 +113,7 @@ class Recorder {
   VkQueryPool queries_ = VK_NULL_HANDLE;
   uint32_t query_capacity_ = 0;
   std::vector<const char*> timed_;
-  std::vector<Buffer> retired_;  ///< replaced by reserve(), perhaps in use by what has been recorded
+  std::vector<Buffer> retired_;  ///< replaced, perhaps in use by what has been recorded
 };
 
 }  // namespace surefield::gpu

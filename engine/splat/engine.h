@@ -8,6 +8,7 @@
 
 #include "engine/splat/camera.h"
 #include "engine/splat/gaussian_cloud.h"
+#include "engine/splat/pose_gradient.h"
 #include "engine/splat/render_images.h"
 
 namespace surefield {
@@ -20,9 +21,6 @@ struct EngineOptions {
 
 /// Which rendered depth the depth terms of a loss use.
 enum class DepthKind { Alpha, Normalised };
-
-/// Which terms the gradient of the pose has: every one, or those through the projected centre and the depth.
-enum class PoseGradient { Full, Light };
 
 /// A frame that the engine holds on the device.
 using FrameHandle = int;
@@ -46,7 +44,7 @@ struct TrackingSettings {
   double minimum_opacity = 0.99;      ///< pixels take part where O is above
   double outlier_factor = 10;         ///< and where the residual is below this many times the median
   DepthKind depth = DepthKind::Normalised;
-  PoseGradient pose_gradient = PoseGradient::Full;
+  PoseGradientKind pose_gradient = PoseGradientKind::Full;
   double stop_below = 2e-5;  ///< stop when steps of all pose numbers have become smaller (radians, metres)
 };
 
@@ -75,7 +73,7 @@ struct MappingSettings {
   double rate_colour = 2.5e-3;            ///< SH of degree 0; the higher ones move at a twentieth of it
   double rate_pose_rotation = 0.0005;     ///< radians
   double rate_pose_translation = 0.0007;  ///< metres
-  PoseGradient pose_gradient = PoseGradient::Full;
+  PoseGradientKind pose_gradient = PoseGradientKind::Full;
 };
 
 /// A keyframe that takes part in mapping.

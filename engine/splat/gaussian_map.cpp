@@ -74,7 +74,11 @@ void GaussianMap::append(const GaussianCloud& cloud) {
   const uint32_t first = size_;
   reserve(first + static_cast<uint32_t>(cloud.size()));
   write(cloud, first);
-  size_ = first + static_cast<uint32_t>(cloud.size());
+  set_size(first + static_cast<uint32_t>(cloud.size()));
+}
+
+void GaussianMap::set_size(uint32_t size) {
+  size_ = size;
   count.upload(std::span(&size_, 1));
 }
 

@@ -34,6 +34,8 @@ class GaussianMap {
   /// Adds Gaussians at the end; their moments and statistics start at zero. Throws std::invalid_argument when
   /// the degree of the spherical harmonics differs from that of a map that is not empty.
   void append(const GaussianCloud& cloud);
+  /// Declares how many Gaussians the arrays hold, after a pass has rebuilt them.
+  void set_size(uint32_t size);
   /// Reads the map back.
   GaussianCloud download() const;
 

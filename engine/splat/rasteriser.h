@@ -1,6 +1,7 @@
 #pragma once
 
 #include "engine/splat/camera.h"
+#include "engine/splat/pose_gradient.h"
 #include "engine/splat/render_images.h"
 #include "engine/splat/tile_lists.h"
 #include "shaders/shared/blend_backward.h"
@@ -10,9 +11,6 @@
 #include "shaders/shared/reduce_pose.h"
 
 namespace surefield {
-
-/// What a pose's gradient is made of: every term, or those through the projected centre and the depth alone.
-enum class PoseGradientKind { Full, Light };
 
 /// The camera as kernels read it.
 glsl::CameraState to_device(const Camera& camera);

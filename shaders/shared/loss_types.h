@@ -45,16 +45,20 @@ SHARED_CONST uint RESIDUAL_OCTAVES = 24;
 SHARED_CONST uint RESIDUAL_BINS_PER_OCTAVE = 64;
 SHARED_CONST uint RESIDUAL_BINS = RESIDUAL_OCTAVES * RESIDUAL_BINS_PER_OCTAVE;
 
-/// The pose being tracked: Adam's state in the tangent space and the best pose so far.
-struct TrackState {
+/// Adam's state for a pose, in the tangent space {so(3)|T}.
+struct PoseAdam {
   PoseGradient first_moment;
   PoseGradient second_moment;
+  uint steps;
+};
+
+/// The pose being tracked and the best one so far.
+struct TrackState {
+  PoseAdam adam;
   CameraState best_camera;
   float best_loss;
-  float last_loss;
-  float last_update;     // norm of the last step, in radians and metres
-  float valid_fraction;  // pixels in the depth mask over pixels with sensor depth, at the best pose
-  uint steps;
+  float best_valid;   // depth pixels that took part at the best pose, of those with sensor depth
+  float last_update;  // largest rotation (radians) or translation (metres) of the last step
 };
 
 SHARED_TYPES_END

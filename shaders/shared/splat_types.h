@@ -70,6 +70,12 @@ struct RenderStatus {
   uint overflow;   // 1 once there were more instances than room; passes that update parameters then do nothing
 };
 
+// How a Gaussian of a rebuilt map came about, in the top bits of its source's index.
+SHARED_CONST uint SOURCE_KEPT = 0u << 30;
+SHARED_CONST uint SOURCE_CLONE = 1u << 30;
+SHARED_CONST uint SOURCE_SPLIT = 2u << 30;
+SHARED_CONST uint SOURCE_KIND = 3u << 30;
+
 SHARED_TYPES_END
 
 #endif

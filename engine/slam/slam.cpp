@@ -1,0 +1,263 @@
+#include "engine/slam/slam.h"
+
+#include <algorithm>
+#include <deque>
+#include <map>
+#include <numeric>
+#include <random>
+#include <stdexcept>
+
+#include "engine/slam/keyframes.h"
+#include "engine/slam/spawn.h"
+
+namespace surefield {
+
+namespace {
+
+constexpr std::size_t kRecentLosses = 10;  // frames whose tracking loss is the measure of a jump
+
+FrameView view_of(const Frame& frame, double depth_max) {
+  return {.width = frame.colour.cols,
+          .height = frame.colour.rows,
+          .colour = frame.colour.ptr<uint8_t>(),
+          .depth = frame.depth.ptr<float>(),
+          .depth_max = static_cast<float>(depth_max)};
+}
+
+/// Size of the scene that rates and scales are measured by: the depth that nine tenths of the first frame lie
+/// within.
+double scene_extent(const Frame& frame, double depth_max) {
+  std::vector<float> depths;
+  for (int v = 0; v < frame.depth.rows; ++v)
+    for (int u = 0; u < frame.depth.cols; ++u) {
+      const float z = frame.depth.at<float>(v, u);
+      if (z > 0 && z <= depth_max) depths.push_back(z);
+    }
+  if (depths.empty()) throw std::invalid_argument("the first frame has no valid depth");
+  const auto at = depths.begin() + static_cast<std::ptrdiff_t>(depths.size() * 9 / 10);
+  std::nth_element(depths.begin(), at, depths.end());
+  return *at;
+}
+
+/// A frame's pose relative to the keyframe that it was tracked after, so that it follows that keyframe's
+/// refinement.
+struct TrackedFrame {
+  double timestamp = 0;
+  int keyframe = 0;
+  Pose keyframe_to_frame = Pose::Identity();
+};
+
+}  // namespace
+
+struct Slam::Implementation {
+  SlamSettings settings;
+  Intrinsics intrinsics;
+  SplatEngine engine;
+  std::mt19937 random;
+  double extent = 1;
+  std::vector<Keyframe> keyframes;
+  std::vector<TrackedFrame> frames;
+  std::vector<FrameReport> reports;
+  std::deque<double> recent_losses;
+
+  Implementation(const SlamSettings& s, const Intrinsics& k, const EngineOptions& options)
+      : settings(s), intrinsics(k), engine(options), random(static_cast<uint32_t>(s.seed)) {}
+
+  Pose world_to_frame(std::size_t i) const {
+    const TrackedFrame& f = frames[i];
+    return f.keyframe_to_frame * keyframes[f.keyframe].camera.world_to_camera;
+  }
+
+  /// Constant velocity: the last pose moved on by the last motion.
+  Pose predict() const {
+    const std::size_t n = frames.size();
+    if (n < 2) return world_to_frame(n - 1);
+    return world_to_frame(n - 1) * world_to_frame(n - 2).inverse() * world_to_frame(n - 1);
+  }
+
+  void check_size(const Frame& frame) const {
+    const cv::Size size(intrinsics.width, intrinsics.height);
+    if (frame.colour.size() != size || frame.depth.size() != size || frame.colour.type() != CV_8UC3 ||
+        frame.depth.type() != CV_32FC1 || !frame.colour.isContinuous() || !frame.depth.isContinuous())
+      throw std::invalid_argument(
+          "the frame's images do not have the size and type that the intrinsics ask for");
+  }
+
+  void initialise(const Frame& frame, FrameReport& report);
+  void track(FrameHandle handle, FrameReport& report);
+  bool looks_lost(const TrackingResult& result) const;
+  TrackingResult retry(FrameHandle handle, const TrackingSettings& tracking, TrackingResult best,
+                       FrameReport& report);
+  void add_keyframe(const Frame& frame, FrameHandle handle, const Pose& world_to_camera);
+  void map_window(FrameReport& report);
+  void optimise(const std::vector<int>& order, const std::vector<int>& refined, FrameReport& report);
+  void densify();
+};
+
+Slam::Slam(const SlamSettings& settings, const Intrinsics& intrinsics, const EngineOptions& options)
+    : implementation_(std::make_unique<Implementation>(settings, intrinsics, options)) {}
+
+Slam::~Slam() = default;
+
+const FrameReport& Slam::feed(const Frame& frame) {
+  Implementation& s = *implementation_;
+  s.check_size(frame);
+  FrameReport report{.index = frame.index, .timestamp = frame.timestamp};
+  if (s.frames.empty()) {
+    s.initialise(frame, report);
+  } else {
+    const FrameHandle handle = s.engine.load(view_of(frame, s.settings.depth_max));
+    s.track(handle, report);
+    const int since_keyframe = static_cast<int>(s.frames.size()) - 1;
+    report.keyframe = !report.lost && since_keyframe % s.settings.keyframes.interval == 0;
+    if (report.keyframe) {
+      s.add_keyframe(frame, handle, report.world_to_camera);
+      s.map_window(report);
+    } else {
+      s.engine.release(handle);
+    }
+  }
+  report.gaussians = s.engine.size();
+  s.reports.push_back(report);
+  return s.reports.back();
+}
+
+void Slam::Implementation::initialise(const Frame& frame, FrameReport& report) {
+  extent = scene_extent(frame, settings.depth_max);
+  const Camera camera{intrinsics};
+  engine.assign(spawn_gaussians(frame, camera, nullptr, settings.spawn, settings.depth_max));
+  frames.push_back({frame.timestamp, 0, Pose::Identity()});
+  keyframes.push_back({frame.index, frame.timestamp, engine.load(view_of(frame, settings.depth_max)), camera,
+                       sample_points(frame, intrinsics, settings.depth_max)});
+  const int half = settings.first_iterations / 2;
+  optimise(std::vector<int>(half, 0), {}, report);
+  densify();
+  optimise(std::vector<int>(settings.first_iterations - half, 0), {}, report);
+  report.keyframe = true;
+}
+
+bool Slam::Implementation::looks_lost(const TrackingResult& result) const {
+  if (result.valid_fraction < settings.lost.minimum_valid) return true;
+  if (recent_losses.empty()) return false;
+  const double mean = std::accumulate(recent_losses.begin(), recent_losses.end(), 0.0) /
+                      static_cast<double>(recent_losses.size());
+  return result.loss > settings.lost.loss_jump * mean;
+}
+
+/// Other starting poses: no motion since the last frame, and the last keyframe's pose.
+TrackingResult Slam::Implementation::retry(FrameHandle handle, const TrackingSettings& tracking,
+                                           TrackingResult best, FrameReport& report) {
+  TrackingSettings patient = tracking;
+  patient.iterations *= 2;
+  for (const Pose& start : {world_to_frame(frames.size() - 1), keyframes.back().camera.world_to_camera}) {
+    if (!looks_lost(best)) break;
+    const TrackingResult other = engine.track(handle, {intrinsics, start}, patient);
+    ++report.retries;
+    report.tracking_iterations += other.iterations;
+    report.tracking_ms += other.milliseconds;
+    if (other.loss < best.loss || best.valid_fraction < settings.lost.minimum_valid) best = other;
+  }
+  return best;
+}
+
+void Slam::Implementation::track(FrameHandle handle, FrameReport& report) {
+  TrackingSettings tracking = settings.tracking;
+  if (frames.size() == 1)
+    tracking.iterations = std::max(tracking.iterations, settings.first_tracking_iterations);
+  TrackingResult result = engine.track(handle, {intrinsics, predict()}, tracking);
+  report.tracking_iterations = result.iterations;
+  report.tracking_ms = result.milliseconds;
+  if (looks_lost(result)) result = retry(handle, tracking, result, report);
+  report.lost = looks_lost(result);
+  report.world_to_camera = result.world_to_camera;
+  report.tracking_loss = result.loss;
+  report.valid_fraction = result.valid_fraction;
+  if (!report.lost) {
+    recent_losses.push_back(result.loss);
+    if (recent_losses.size() > kRecentLosses) recent_losses.pop_front();
+  }
+  const int reference = static_cast<int>(keyframes.size()) - 1;
+  frames.push_back({report.timestamp, reference,
+                    result.world_to_camera * keyframes[reference].camera.world_to_camera.inverse()});
+}
+
+void Slam::Implementation::add_keyframe(const Frame& frame, FrameHandle handle, const Pose& world_to_camera) {
+  const Camera camera{intrinsics, world_to_camera};
+  keyframes.push_back(
+      {frame.index, frame.timestamp, handle, camera, sample_points(frame, intrinsics, settings.depth_max)});
+  frames.back() = {frame.timestamp, static_cast<int>(keyframes.size()) - 1, Pose::Identity()};
+  const RenderImages rendered = engine.render(camera);
+  engine.insert(spawn_gaussians(frame, camera, &rendered, settings.spawn, settings.depth_max));
+}
+
+void Slam::Implementation::map_window(FrameReport& report) {
+  const KeyframeWindow window = select_window(keyframes, settings.keyframes.window);
+  const auto order = mapping_order(window, static_cast<int>(keyframes.size()), settings.mapping_iterations,
+                                   settings.keyframes.past_keyframes, random);
+  std::vector<int> refined;
+  for (int member : window.members)
+    if (member != window.fixed) refined.push_back(member);
+  const auto middle = order.begin() + static_cast<std::ptrdiff_t>(order.size() / 2);
+  optimise({order.begin(), middle}, refined, report);
+  densify();
+  optimise({middle, order.end()}, refined, report);
+  report.world_to_camera = keyframes.back().camera.world_to_camera;
+}
+
+void Slam::Implementation::optimise(const std::vector<int>& order, const std::vector<int>& refined,
+                                    FrameReport& report) {
+  std::vector<MappingView> views;
+  std::map<int, int> view_of_keyframe;
+  std::vector<int> steps;
+  for (int keyframe : order) {
+    const auto [entry, is_new] = view_of_keyframe.try_emplace(keyframe, static_cast<int>(views.size()));
+    if (is_new)
+      views.push_back({keyframes[keyframe].frame, keyframes[keyframe].camera,
+                       std::find(refined.begin(), refined.end(), keyframe) != refined.end()});
+    steps.push_back(entry->second);
+  }
+  const MappingResult result = engine.optimise(views, steps, settings.mapping, extent);
+  for (const auto& [keyframe, view] : view_of_keyframe) keyframes[keyframe].camera = views[view].camera;
+  report.mapping_iterations += result.iterations;
+  report.mapping_ms += result.milliseconds;
+}
+
+void Slam::Implementation::densify() {
+  DensifySettings densify = settings.densify;
+  densify.extent = extent;
+  densify.seed = random();
+  engine.densify(densify);
+}
+
+Trajectory Slam::trajectory() const {
+  Trajectory trajectory;
+  for (std::size_t i = 0; i < implementation_->frames.size(); ++i)
+    trajectory.push_back(
+        {implementation_->frames[i].timestamp, implementation_->world_to_frame(i).inverse()});
+  return trajectory;
+}
+
+Trajectory Slam::keyframes() const {
+  Trajectory trajectory;
+  for (const Keyframe& keyframe : implementation_->keyframes)
+    trajectory.push_back({keyframe.timestamp, keyframe.camera.world_to_camera.inverse()});
+  return trajectory;
+}
+
+GaussianCloud Slam::map() const {
+  return implementation_->engine.map();
+}
+
+RenderImages Slam::render(const Camera& camera) const {
+  return implementation_->engine.render(camera);
+}
+
+const std::vector<FrameReport>& Slam::reports() const {
+  return implementation_->reports;
+}
+
+EngineReport Slam::engine_report() const {
+  return implementation_->engine.report();
+}
+
+}  // namespace surefield

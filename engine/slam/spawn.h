@@ -1,0 +1,15 @@
+#pragma once
+
+#include "engine/io/frame.h"
+#include "engine/slam/settings.h"
+
+namespace surefield {
+
+/// New Gaussians for what `frame` sees and the map does not show (paper section 3.3): one per pixel with
+/// valid depth whose rendered opacity is low, or that lies well in front of the rendered surface. `rendered`
+/// is null for the first frame: every valid pixel spawns. Each is a sphere of about a pixel's footprint, of
+/// the pixel's colour.
+GaussianCloud spawn_gaussians(const Frame& frame, const Camera& camera, const RenderImages* rendered,
+                              const SpawnSettings& settings, double depth_max);
+
+}  // namespace surefield

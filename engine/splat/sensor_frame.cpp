@@ -1,0 +1,24 @@
+#include "engine/splat/sensor_frame.h"
+
+namespace surefield {
+
+SensorFrame::SensorFrame(gpu::Device& device, const FrameView& view)
+    : size{static_cast<uint32_t>(view.width), static_cast<uint32_t>(view.height)},
+      colour(device, "sensor colour", size.pixels()),
+      depth(device, "sensor depth", size.pixels()) {
+  std::vector<glsl::uint> packed(size.pixels());
+  std::vector<float> metres(size.pixels(), 0.0f);
+  for (uint64_t i = 0; i < size.pixels(); ++i) {
+    const uint8_t* rgb = view.colour + 3 * i;
+    packed[i] = rgb[0] | uint32_t{rgb[1]} << 8 | uint32_t{rgb[2]} << 16 | 0xFF000000u;
+    // NaN fails both comparisons.
+    if (view.depth[i] > 0 && view.depth[i] <= view.depth_max) {
+      metres[i] = view.depth[i];
+      ++valid_pixels;
+    }
+  }
+  colour.upload(packed);
+  depth.upload(metres);
+}
+
+}  // namespace surefield

@@ -1,0 +1,18 @@
+#pragma once
+
+#include "engine/splat/engine.h"
+#include "engine/splat/tile_lists.h"
+
+namespace surefield {
+
+/// A frame's images on the device.
+struct SensorFrame {
+  ImageSize size;
+  gpu::Array<glsl::uint> colour;  ///< R, G, B, 255 from the lowest byte up
+  gpu::Array<float> depth;        ///< metres, 0 where invalid
+  uint32_t valid_pixels = 0;      ///< pixels with depth
+
+  SensorFrame(gpu::Device& device, const FrameView& view);
+};
+
+}  // namespace surefield
