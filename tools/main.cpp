@@ -1,1 +1,43 @@
-int main() { return 0; }
+// The `surefield` command: reads the command line and runs the subcommand that it names.
+#include <cstdio>
+
+#include "tools/build_info.h"
+#include "tools/command.h"
+
+namespace {
+
+constexpr const char* kDescription =
+    "Surefield: dense RGB-D SLAM with 3D Gaussians on any Vulkan device.\n"
+    "\n"
+    "  surefield run --dataset synthetic --out out/demo     # see it work, no data needed\n"
+    "  surefield run --dataset rgbd_dataset_freiburg1_desk --out out/desk\n"
+    "  surefield eval --trajectory out/desk/trajectory.txt --ground-truth rgbd_dataset_freiburg1_desk\n"
+    "\n"
+    "`surefield SUBCOMMAND --help` shows the options of a subcommand with an example.";
+
+constexpr const char* kExitCodes =
+    "Exit codes: 0 success, 2 wrong use or input, 3 device error, 130 interrupted, 1 any other error.";
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App program(kDescription, "surefield");
+  program.footer(kExitCodes);
+  program.set_version_flag(
+      "--version", std::string("surefield ") + surefield::kVersion + " (" + surefield::kGitCommit + ")");
+  program.require_subcommand(1);
+  surefield::Action action;
+  surefield::add_run(program, action);
+  surefield::add_eval(program, action);
+  surefield::add_render(program, action);
+  surefield::add_devices(program, action);
+  try {
+    program.parse(argc, argv);
+  } catch (const CLI::Success& help_or_version) {
+    return program.exit(help_or_version);
+  } catch (const CLI::ParseError& error) {
+    surefield::print_error(std::string(error.what()) + "; see surefield --help");
+    return surefield::kWrongInput;
+  }
+  return surefield::run_action(action);
+}

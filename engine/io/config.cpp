@@ -77,8 +77,16 @@ std::string ConfigSchema::apply(const std::string& key, const YAML::Node& value)
   return fmt::format("unknown key {}; did you mean {}?", key, nearest->key);
 }
 
-void ConfigSchema::load_file(const std::filesystem::path& file) {
-  for (const ConfigValue& value : read_config_file(file)) {
+void ConfigSchema::load_file(const std::filesystem::path& file, const BuiltInFiles& built_in) {
+  apply_all(read_config_file(file, built_in));
+}
+
+void ConfigSchema::load_built_in(const std::string& name, const BuiltInFiles& built_in) {
+  apply_all(read_built_in_config(name, built_in));
+}
+
+void ConfigSchema::apply_all(const std::vector<ConfigValue>& values) const {
+  for (const ConfigValue& value : values) {
     const std::string problem = apply(value.key, value.node);
     if (!problem.empty()) throw InputError(value.file, value.line, problem);
   }

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <string>
 #include <utility>
 #include <vector>
@@ -12,6 +13,8 @@ class Node;
 }
 
 namespace surefield {
+
+struct ConfigValue;
 
 /// Smallest and largest permitted value of a number, both included.
 struct Range {
@@ -23,6 +26,9 @@ struct Range {
 /// user.
 template <typename T>
 using Choices = std::vector<std::pair<std::string, T>>;
+
+/// Configuration files that the program carries inside it: text by name.
+using BuiltInFiles = std::map<std::string, std::string>;
 
 /// Typed configuration: modules bind dotted keys to the fields of their settings, and the user's values are
 /// checked before they are stored. What a field holds when it is added is its default.
@@ -59,8 +65,12 @@ class ConfigSchema {
   /// Reads a YAML file; nested maps are dotted keys. A top-level key `base` names a file, relative to this
   /// one, that is read first. Throws InputError with file, line and key for an unknown key (with the nearest
   /// known one), a key given twice, and a value of the wrong type or out of range; fields read before it keep
-  /// their new values.
-  void load_file(const std::filesystem::path& file);
+  /// their new values. Where the disk has no `file`, or no base file of that name, the one in `built_in` is
+  /// read.
+  void load_file(const std::filesystem::path& file, const BuiltInFiles& built_in = {});
+
+  /// Reads the file `name` of `built_in`, whatever the disk holds; it must be there.
+  void load_built_in(const std::string& name, const BuiltInFiles& built_in);
 
   /// Sets one value from "key=value", as given on a command line; lists are written [1, 2, 3]. Throws
   /// InputError.
@@ -88,6 +98,8 @@ class ConfigSchema {
                   const std::string& help);
   const Entry* find(const std::string& key) const;
   bool is_section(const std::string& key) const;
+  /// Stores the values of a file in their order.
+  void apply_all(const std::vector<ConfigValue>& values) const;
   /// Stores a value, or returns what is wrong with it.
   std::string apply(const std::string& key, const YAML::Node& value) const;
   /// The keys that start with `prefix` (empty, or ending in a dot) as indented YAML.

@@ -1,6 +1,7 @@
 #include "engine/io/config_file.h"
 
 #include <algorithm>
+#include <optional>
 #include <set>
 
 #include "engine/io/error.h"
@@ -40,40 +41,63 @@ class Flattener {
   std::set<std::string> seen_;
 };
 
-YAML::Node parse_file(const std::filesystem::path& file) {
+/// A configuration file, on the disk or in the program.
+struct Source {
+  std::filesystem::path file;     ///< as messages name it
+  const std::string* built_in{};  ///< its text; null: on the disk
+
+  bool operator==(const Source& other) const {
+    std::error_code ignored;
+    if (built_in || other.built_in) return built_in == other.built_in;
+    return std::filesystem::equivalent(file, other.file, ignored);
+  }
+};
+
+/// The built-in file `name`, if there is one.
+std::optional<Source> find_built_in(const std::string& name, const BuiltInFiles& files) {
+  const auto found = files.find(name);
+  if (found == files.end()) return std::nullopt;
+  return Source{"built-in " + name, &found->second};
+}
+
+/// Where the file that `name` means is, seen from `from`.
+Source find_base(const Source& from, const ConfigValue& name, const BuiltInFiles& built_in) {
+  if (!name.node.IsScalar()) throw InputError(from.file, name.line, "base must be the name of a file");
+  const std::filesystem::path on_disk = from.file.parent_path() / name.node.Scalar();
+  if (!from.built_in && std::filesystem::exists(on_disk)) return {on_disk};
+  const auto source = find_built_in(name.node.Scalar(), built_in);
+  if (!source) {
+    throw InputError(from.file, name.line, "the base file " + on_disk.string() + " does not exist");
+  }
+  return *source;
+}
+
+YAML::Node parse(const Source& source) {
   YAML::Node root;
   try {
-    root = YAML::Load(read_file(file));
+    root = YAML::Load(source.built_in ? *source.built_in : read_file(source.file));
   } catch (const YAML::Exception& error) {
-    throw InputError(file, error.mark.line + 1, "is not valid YAML: " + error.msg);
+    throw InputError(source.file, error.mark.line + 1, "is not valid YAML: " + error.msg);
   }
-  if (!root.IsMap() && !root.IsNull()) throw InputError(file, "must hold \"key: value\" lines");
+  if (!root.IsMap() && !root.IsNull()) throw InputError(source.file, "must hold \"key: value\" lines");
   return root;
 }
 
 /// `chain` holds the files that are being read, the outermost first.
-std::vector<ConfigValue> read_with_base(const std::filesystem::path& file,
-                                        std::vector<std::filesystem::path> chain) {
-  const auto same_file = [&](const std::filesystem::path& other) {
-    std::error_code ignored;
-    return std::filesystem::equivalent(file, other, ignored);
-  };
-  if (std::any_of(chain.begin(), chain.end(), same_file)) {
-    throw InputError(chain.back(), "its base leads back to " + file.string() + "; remove that line");
+std::vector<ConfigValue> read_with_base(const Source& source, std::vector<Source> chain,
+                                        const BuiltInFiles& built_in) {
+  if (std::find(chain.begin(), chain.end(), source) != chain.end()) {
+    throw InputError(chain.back().file,
+                     "its base leads back to " + source.file.string() + "; remove that line");
   }
-  chain.push_back(file);
-  Flattener own(file);
-  own.flatten(parse_file(file), "", 0);
+  chain.push_back(source);
+  Flattener own(source.file);
+  own.flatten(parse(source), "", 0);
   std::vector<ConfigValue> values;
   const auto base = std::find_if(own.values.begin(), own.values.end(),
                                  [](const ConfigValue& value) { return value.key == kBaseKey; });
   if (base != own.values.end()) {
-    if (!base->node.IsScalar()) throw InputError(file, base->line, "base must be the name of a file");
-    const std::filesystem::path base_file = file.parent_path() / base->node.Scalar();
-    if (!std::filesystem::exists(base_file)) {
-      throw InputError(file, base->line, "the base file " + base_file.string() + " does not exist");
-    }
-    values = read_with_base(base_file, chain);
+    values = read_with_base(find_base(source, *base, built_in), chain, built_in);
     own.values.erase(base);
   }
   values.insert(values.end(), own.values.begin(), own.values.end());
@@ -82,8 +106,14 @@ std::vector<ConfigValue> read_with_base(const std::filesystem::path& file,
 
 }  // namespace
 
-std::vector<ConfigValue> read_config_file(const std::filesystem::path& file) {
-  return read_with_base(file, {});
+std::vector<ConfigValue> read_config_file(const std::filesystem::path& file, const BuiltInFiles& built_in) {
+  const auto substitute =
+      std::filesystem::exists(file) ? std::nullopt : find_built_in(file.string(), built_in);
+  return read_with_base(substitute.value_or(Source{file}), {}, built_in);
+}
+
+std::vector<ConfigValue> read_built_in_config(const std::string& name, const BuiltInFiles& built_in) {
+  return read_with_base(find_built_in(name, built_in).value(), {}, built_in);
 }
 
 }  // namespace surefield

@@ -173,6 +173,39 @@ TEST_CASE("values of the wrong type are refused") {
   CHECK(contains(load_error("output: [a]\n"), "must be text, not a list"));
 }
 
+TEST_CASE("configuration files of the program stand in for those that the disk lacks") {
+  const TemporaryFolder folder;
+  const BuiltInFiles built_in = {{"base.yaml", "tracking: {iterations: 11, rate: 0.5}\n"},
+                                 {"fast.yaml", "base: base.yaml\ntracking: {iterations: 3}\n"},
+                                 {"circle.yaml", "base: circle.yaml\n"},
+                                 {"wrong.yaml", "base: base.yaml\ntracking: {iteration: 3}\n"}};
+  {
+    Bound bound;
+    bound.schema.load_built_in("fast.yaml", built_in);
+    CHECK(bound.settings.iterations == 3);
+    CHECK(bound.settings.rate == 0.5);
+  }
+  {
+    Bound bound;
+    bound.schema.load_file(folder.write("own.yaml", "base: fast.yaml\ntracking: {rate: 0.25}\n"), built_in);
+    CHECK(bound.settings.iterations == 3);
+    CHECK(bound.settings.rate == 0.25);
+  }
+  {
+    Bound bound;
+    folder.write("fast.yaml", "tracking: {iterations: 5}\n");
+    bound.schema.load_file(folder / "own.yaml", built_in);
+    CHECK(bound.settings.iterations == 5);
+    bound.schema.load_file("fast.yaml", built_in);
+    CHECK(bound.settings.iterations == 3);
+  }
+  Bound bound;
+  CHECK(contains(input_error([&] { bound.schema.load_built_in("circle.yaml", built_in); }), "leads back to"));
+  CHECK(contains(input_error([&] { bound.schema.load_built_in("wrong.yaml", built_in); }),
+                 "built-in wrong.yaml:2: unknown key tracking.iteration"));
+  CHECK(contains(input_error([&] { bound.schema.load_file("no.yaml", built_in); }), "no such file"));
+}
+
 TEST_CASE("single values are set as on a command line") {
   Bound bound;
   bound.schema.set("tracking.iterations=7");

@@ -1,0 +1,118 @@
+#include "engine/slam/settings.h"
+
+#include <climits>
+
+namespace surefield {
+
+namespace {
+
+constexpr Range kFraction{0, 1};
+constexpr Range kWeight{0, 1000};
+constexpr Range kRate{0, 1};
+constexpr Range kFactor{0, 1e6};
+constexpr Range kSteps{0, 100000};
+
+void bind_tracking(ConfigSchema& schema, TrackingSettings& tracking) {
+  schema.add("tracking.iterations", &tracking.iterations, Range{1, 100000}, "steps per frame, at most");
+  schema.add("tracking.rate_rotation", &tracking.rate_rotation, kRate,
+             "Adam's step of the rotation, radians");
+  schema.add("tracking.rate_translation", &tracking.rate_translation, kRate,
+             "Adam's step of the translation, metres");
+  schema.add("tracking.weight_colour", &tracking.weight_colour, kWeight,
+             "lambda_1, weight of the mean colour difference (colours are 0 to 1)");
+  schema.add("tracking.weight_depth", &tracking.weight_depth, kWeight,
+             "lambda_2, weight of the mean depth difference (metres)");
+  schema.add("tracking.minimum_opacity", &tracking.minimum_opacity, kFraction,
+             "pixels take part where the rendered opacity is above");
+  schema.add("tracking.outlier_factor", &tracking.outlier_factor, kFactor,
+             "pixels take part where their difference is below this many times the median");
+  schema.add("tracking.depth", &tracking.depth,
+             Choices<DepthKind>{{"alpha", DepthKind::Alpha}, {"normalised", DepthKind::Normalised}},
+             "rendered depth that is compared: blended as it is, or divided by the opacity");
+  schema.add("tracking.pose_gradient", &tracking.pose_gradient,
+             Choices<PoseGradientKind>{{"full", PoseGradientKind::Full}, {"light", PoseGradientKind::Light}},
+             "terms of the pose's gradient: all, or those through the projected centre and the depth");
+  schema.add("tracking.stop_below", &tracking.stop_below, kRate,
+             "tracking ends when all steps have become smaller, radians and metres; 0: never early");
+}
+
+void bind_mapping(ConfigSchema& schema, MappingSettings& mapping) {
+  schema.add("mapping.weight_colour", &mapping.weight_colour, kWeight,
+             "weight of the mean colour difference");
+  schema.add("mapping.weight_ssim", &mapping.weight_ssim, kWeight, "weight of 1 - SSIM");
+  schema.add("mapping.weight_depth", &mapping.weight_depth, kWeight,
+             "weight of the mean depth difference (metres)");
+  schema.add("mapping.weight_align", &mapping.weight_align, kWeight,
+             "weight of the difference between blended and median depth");
+  schema.add("mapping.weight_isotropy", &mapping.weight_isotropy, kWeight,
+             "weight of the penalty on elongated Gaussians");
+  schema.add("mapping.weight_variance", &mapping.weight_variance, kWeight,
+             "weight of the depth variance along a ray (the uncertainty)");
+  schema.add("mapping.depth", &mapping.depth,
+             Choices<DepthKind>{{"alpha", DepthKind::Alpha}, {"normalised", DepthKind::Normalised}},
+             "rendered depth that is compared: blended as it is, or divided by the opacity");
+  schema.add("mapping.rate_mean", &mapping.rate_mean, kRate,
+             "Adam's step of the centres, times the scene's extent");
+  schema.add("mapping.rate_log_scale", &mapping.rate_log_scale, kRate,
+             "Adam's step of the log-scales, times the scene's extent");
+  schema.add("mapping.rate_rotation", &mapping.rate_rotation, kRate, "Adam's step of the quaternions");
+  schema.add("mapping.rate_opacity", &mapping.rate_opacity, kRate, "Adam's step of the opacity logits");
+  schema.add("mapping.rate_colour", &mapping.rate_colour, kRate,
+             "Adam's step of the colour coefficients; a twentieth of it for those of degree 1 and above");
+  schema.add("mapping.rate_pose_rotation", &mapping.rate_pose_rotation, kRate,
+             "Adam's step of the keyframes' rotations, radians");
+  schema.add("mapping.rate_pose_translation", &mapping.rate_pose_translation, kRate,
+             "Adam's step of the keyframes' translations, metres");
+  schema.add("mapping.pose_gradient", &mapping.pose_gradient,
+             Choices<PoseGradientKind>{{"full", PoseGradientKind::Full}, {"light", PoseGradientKind::Light}},
+             "terms of the poses' gradient: all, or those through the projected centre and the depth");
+}
+
+void bind_densify(ConfigSchema& schema, DensifySettings& densify) {
+  schema.add("densify.gradient_threshold", &densify.gradient_threshold, kFactor,
+             "Gaussians with a larger mean screen gradient (in half images) are split or cloned");
+  schema.add("densify.split_scale", &densify.split_scale, kFactor,
+             "larger ones are split, smaller ones cloned; metres, times the scene's extent");
+  schema.add("densify.minimum_opacity", &densify.minimum_opacity, kFraction, "fainter ones are removed");
+  schema.add("densify.maximum_scale", &densify.maximum_scale, kFactor,
+             "larger ones are removed; metres, times the scene's extent");
+}
+
+void bind_spawn(ConfigSchema& schema, SpawnSettings& spawn) {
+  schema.add("spawn.opacity_below", &spawn.opacity_below, kFraction,
+             "psi, a pixel whose rendered opacity is below spawns a Gaussian");
+  schema.add("spawn.front_factor", &spawn.front_factor, kFactor,
+             "a pixel also spawns one where the map lies behind the sensor depth by this many median errors; "
+             "0: never");
+  schema.add("spawn.opacity", &spawn.opacity, Range{0.005, 0.99}, "opacity at birth");
+  schema.add("spawn.footprint", &spawn.footprint, Range{0.01, 100},
+             "radius at birth, in pixels at the Gaussian's depth");
+}
+
+}  // namespace
+
+void SlamSettings::bind(ConfigSchema& schema) {
+  schema.add("seed", &seed, Range{0, INT_MAX}, "drives every random choice");
+  schema.add("depth_max", &depth_max, Range{0.1, 1000}, "metres, sensor depth beyond is not used");
+  schema.add("first_iterations", &first_iterations, kSteps, "mapping steps on the first frame");
+  schema.add("mapping_iterations", &mapping_iterations, kSteps, "mapping steps per keyframe");
+  schema.add("first_tracking_iterations", &first_tracking_iterations, Range{1, 100000},
+             "steps of the first tracked frame, at most");
+  bind_tracking(schema, tracking);
+  bind_mapping(schema, mapping);
+  schema.add("keyframes.interval", &keyframes.interval, Range{1, 100000},
+             "every so many frames is a keyframe");
+  schema.add(
+      "keyframes.window", &keyframes.window, Range{1, 1000},
+      "k, keyframes optimised together: the current, the most recent, and the k - 2 that overlap most");
+  schema.add("keyframes.past_keyframes", &keyframes.past_keyframes, Range{0, 1000},
+             "random older keyframes among the steps, against forgetting");
+  bind_spawn(schema, spawn);
+  bind_densify(schema, densify);
+  schema.add("lost.loss_jump", &lost.loss_jump, kFactor,
+             "a frame is lost when its loss is above this many times the mean of the last frames");
+  schema.add("lost.minimum_valid", &lost.minimum_valid, kFraction,
+             "or when a smaller fraction of the pixels with sensor depth took part in tracking");
+}
+
+}  // namespace surefield

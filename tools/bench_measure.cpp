@@ -1,0 +1,157 @@
+#include "tools/bench_measure.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <functional>
+#include <string_view>
+
+#include "engine/splat/rasteriser.h"
+#include "shaders/shared/measure_peak.h"
+#include "tools/pair_count.h"
+
+namespace surefield {
+
+namespace {
+
+constexpr int kWarmUp = 2;
+
+/// Submits what has been recorded, `since` when recording began, and adds its times.
+void submit(gpu::Recorder& recorder, std::chrono::steady_clock::time_point since, StepSamples* step) {
+  const std::vector<gpu::PassTime> times = recorder.submit();
+  const std::chrono::duration<double, std::milli> wall = std::chrono::steady_clock::now() - since;
+  step->milliseconds.add(wall.count());
+  std::map<std::string_view, double> sums;
+  for (const gpu::PassTime& time : times) sums[time.pass] += time.milliseconds;
+  const bool first = step->passes.empty();
+  for (const gpu::PassTime& time : times) {
+    auto entry = std::find_if(step->passes.begin(), step->passes.end(),
+                              [&](const PassSamples& p) { return p.pass == time.pass; });
+    if (entry == step->passes.end()) entry = step->passes.insert(entry, {time.pass});
+    if (first) ++entry->dispatches;
+  }
+  for (PassSamples& pass : step->passes) pass.milliseconds.add(sums[pass.pass]);
+}
+
+/// A gradient for every pixel, of no meaning but with no zeros.
+std::vector<glsl::PixelGradient> some_gradients(uint64_t pixels) {
+  std::vector<glsl::PixelGradient> gradients(pixels);
+  for (uint64_t i = 0; i < pixels; ++i) {
+    const float x = std::sin(static_cast<float>(i % 1000)), y = std::cos(static_cast<float>(i % 777));
+    gradients[i] = {.colour = {x, y, x * y},
+                    .opacity = 0.5f * y,
+                    .depth = x,
+                    .depth_normalised = y,
+                    .depth_median = 0.1f * x,
+                    .uncertainty = 0.1f * y};
+  }
+  return gradients;
+}
+
+/// A scene on the device.
+class SceneBench {
+ public:
+  SceneBench(gpu::Device& device, const TileShape& shape, const BenchScene& scene)
+      : rasteriser_(device, shape),
+        map_(device),
+        camera_(device, "camera"),
+        depth_(device, "sensor depth"),
+        recorder_(device),
+        size_{static_cast<uint32_t>(scene.camera.intrinsics.width),
+              static_cast<uint32_t>(scene.camera.intrinsics.height)} {
+    map_.assign(scene.cloud);
+    const glsl::CameraState state = to_device(scene.camera);
+    camera_.upload(std::span(&state, 1));
+    std::vector<float> depth = scene.sensor_depth;
+    depth.resize(size_.pixels(), 0.0f);
+    depth_.upload(depth);
+    do {
+      rasteriser_.record_forward(recorder_, map_, view(), Outputs::All);
+      recorder_.submit();
+    } while (rasteriser_.lists.grow_after_overflow());
+    rasteriser_.pixel_gradients.upload(some_gradients(size_.pixels()));
+    recorder_.enable_timestamps();
+  }
+
+  void measure(SceneTimes* times) {
+    time(&times->forward, [&] { rasteriser_.record_forward(recorder_, map_, view(), Outputs::ColourDepth); });
+    time(&times->backward_pose, [&] { rasteriser_.record_backward_pose(recorder_, map_, view()); });
+    time(&times->forward_all, [&] { rasteriser_.record_forward(recorder_, map_, view(), Outputs::All); });
+    time(&times->backward, [&] { rasteriser_.record_backward(recorder_, map_, view(), 0.1f); });
+  }
+
+  const TileLists& lists() const { return rasteriser_.lists; }
+  const ImageSize& size() const { return size_; }
+
+ private:
+  View view() const { return {size_, camera_, depth_}; }
+
+  void time(StepSamples* step, const std::function<void()>& record) {
+    const auto start = std::chrono::steady_clock::now();
+    record();
+    submit(recorder_, start, step);
+  }
+
+  Rasteriser rasteriser_;
+  GaussianMap map_;
+  gpu::Array<glsl::CameraState> camera_;
+  gpu::Array<float> depth_;
+  gpu::Recorder recorder_;
+  ImageSize size_;
+};
+
+void find_blending(StepSamples* step) {
+  for (const PassSamples& pass : step->passes)
+    if (pass.pass.starts_with("blend_")) step->blend_milliseconds = pass.milliseconds.median();
+}
+
+/// The best rate of one kernel, in operations per nanosecond.
+double peak_rate(gpu::Device& device, bool exponentials, int repeat) {
+  constexpr uint32_t kRounds = 4096, kChains = 16, kGroups = 64;
+  const uint32_t lanes = device.limits().subgroup_size;
+  const gpu::Pass<passes::measure_peak> pass(device, lanes,
+                                             {.EXPONENTIALS = exponentials ? 1u : 0u, .ROUNDS = kRounds});
+  gpu::Array<float> results(device, "results", uint64_t{kGroups} * lanes);
+  gpu::Recorder recorder(device);
+  double best = 0;
+  for (int i = 0; i < repeat + kWarmUp; ++i) {
+    const auto start = std::chrono::steady_clock::now();
+    recorder.dispatch(pass, kGroups, {.results = results}, {.factor = 0.999f, .offset = 0.001f});
+    recorder.submit();
+    const std::chrono::duration<double, std::nano> wall = std::chrono::steady_clock::now() - start;
+    best = std::max(best, double{kRounds} * kChains * kGroups * lanes / wall.count());
+  }
+  return best;
+}
+
+}  // namespace
+
+double Samples::median() const {
+  std::vector<double> sorted = values_;
+  std::sort(sorted.begin(), sorted.end());
+  return sorted.empty() ? 0 : sorted[sorted.size() / 2];
+}
+
+double Samples::least() const {
+  return values_.empty() ? 0 : *std::min_element(values_.begin(), values_.end());
+}
+
+SceneTimes measure_scene(gpu::Device& device, const TileShape& shape, const BenchScene& scene, int repeat) {
+  SceneBench bench(device, shape, scene);
+  SceneTimes times;
+  for (int i = 0; i < kWarmUp; ++i) bench.measure(&times);
+  times = {.name = scene.name, .gaussians = scene.cloud.size(), .size = bench.size()};
+  for (int i = 0; i < repeat; ++i) bench.measure(&times);
+  for (StepSamples* step : {&times.forward, &times.forward_all, &times.backward_pose, &times.backward})
+    find_blending(step);
+  times.status = bench.lists().read_status();
+  times.pairs = count_pairs(bench.lists(), bench.size());
+  return times;
+}
+
+PeakRates measure_peak(gpu::Device& device, int repeat) {
+  return {.gflops = 2 * peak_rate(device, false, repeat),
+          .exponentials_per_ns = peak_rate(device, true, repeat)};
+}
+
+}  // namespace surefield

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <functional>
+
+namespace surefield {
+
+/// The exit codes of the program.
+enum ExitCode : int {
+  kSuccess = 0,
+  kFailure = 1,      ///< any error that is none of those below
+  kWrongInput = 2,   ///< the command line, a file or a value is wrong
+  kDeviceError = 3,  ///< no usable Vulkan device, or it failed
+  kInterrupted = 130
+};
+
+/// What the subcommand that the user gave does; returns the exit code. Errors are thrown: run_action() prints
+/// them.
+using Action = std::function<int()>;
+
+/// Each adds one subcommand with its options to the program. When the user gives it, parsing stores in
+/// `action` what to do; nothing is done while parsing.
+void add_devices(CLI::App& program, Action& action);
+void add_run(CLI::App& program, Action& action);
+void add_eval(CLI::App& program, Action& action);
+void add_render(CLI::App& program, Action& action);
+
+/// Runs an action. Whatever it throws becomes one line "surefield: error: ..." on stderr and the exit code
+/// that fits.
+int run_action(const Action& action);
+
+/// The exit code for the exception that is being handled.
+int exit_code_of_current_exception();
+
+/// The exception that is being handled as one line: what happened and what to do about it.
+std::string describe_current_exception();
+
+/// Prints "surefield: error: `message`" to stderr.
+void print_error(const std::string& message);
+
+}  // namespace surefield

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <chrono>
+#include <string>
+
+#include "engine/slam/slam.h"
+
+namespace surefield {
+
+/// Shows on stderr how far a run is: a bar where that is a terminal, else a line for every tenth of the
+/// frames.
+class Progress {
+ public:
+  /// `frames` is how many there will be, the skipped ones included.
+  Progress(int frames, bool quiet);
+  ~Progress();
+  Progress(const Progress&) = delete;
+  Progress& operator=(const Progress&) = delete;
+
+  /// A frame was fed.
+  void fed(const FrameReport& report);
+  /// A frame was skipped.
+  void skipped(const std::string& reason);
+
+ private:
+  void advance();
+  void draw_bar() const;
+  std::string numbers() const;
+  std::string remaining() const;
+
+  int frames_;
+  bool quiet_;
+  bool terminal_;
+  int done_ = 0;
+  int fed_ = 0;
+  FrameReport last_;
+  std::chrono::steady_clock::time_point start_;
+  double first_frame_seconds_ = 0;  ///< the first frame takes far longer than the others
+};
+
+}  // namespace surefield

@@ -1,0 +1,122 @@
+// surefield render: images of a map seen from one camera.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <memory>
+#include <optional>
+
+#include "engine/io/error.h"
+#include "engine/io/images.h"
+#include "engine/io/ply.h"
+#include "engine/splat/engine.h"
+#include "tools/command.h"
+
+namespace surefield {
+
+namespace {
+
+constexpr const char* kExamples =
+    "Writes colour.png and, as uncompressed 32-bit float TIFF: colour, opacity, depth (blended), "
+    "depth_normalised\n"
+    "(divided by the opacity), depth_median (0 where there is none), uncertainty (0 without sensor depth),\n"
+    "dominator (index of the Gaussian of the largest weight, -1 where there is none; exact up to 16777216) "
+    "and\n"
+    "dominator_weight. Depths are in metres.\n"
+    "The camera is JSON: width, height, fx, fy, cx, cy (pixels, centres at integers) and world_to_camera "
+    "(four\n"
+    "rows of four numbers).\n"
+    "\n"
+    "Example:\n"
+    "  surefield render --map out/demo/map.ply --camera camera.json --out out/view\n"
+    "  surefield render --map map.ply --camera camera.json --out view --sensor-depth depth.png --depth-scale "
+    "5000\n";
+
+struct RenderOptions {
+  std::string map;
+  std::string camera;
+  std::string out;
+  std::string sensor_depth;  ///< empty: none
+  double depth_scale = 0;    ///< steps per metre
+  EngineOptions engine;
+};
+
+GaussianCloud read_map(const std::string& file) {
+  PlyCloud ply = read_ply(file);
+  if (ply.dropped > 0) {
+    fmt::print(stderr, "surefield: warning: {}: {} Gaussians are not finite and were left out\n", file,
+               ply.dropped);
+  }
+  return std::move(ply.cloud);
+}
+
+std::vector<float> read_sensor_depth(const RenderOptions& options, const Intrinsics& intrinsics) {
+  if (!(options.depth_scale >= 1)) {
+    throw InputError(
+        fmt::format("--depth-scale {} is no number of steps per metre; TUM RGB-D has 5000, depth in "
+                    "millimetres 1000",
+                    options.depth_scale));
+  }
+  const cv::Mat depth = read_depth(options.sensor_depth, {1 / options.depth_scale});
+  if (depth.cols != intrinsics.width || depth.rows != intrinsics.height) {
+    throw InputError(options.sensor_depth, fmt::format("is {} x {}, but the camera is {} x {}", depth.cols,
+                                                       depth.rows, intrinsics.width, intrinsics.height));
+  }
+  return {depth.begin<float>(), depth.end<float>()};
+}
+
+void write_images(const std::filesystem::path& folder, RenderImages& images) {
+  const cv::Mat colour(images.height, images.width, CV_32FC3, images.colour.data());
+  write_png(folder / "colour.png", colour);
+  write_tiff(folder / "colour.tiff", colour);
+  const auto write = [&](const char* name, std::vector<float>& values) {
+    write_tiff(folder / name, cv::Mat(images.height, images.width, CV_32FC1, values.data()));
+  };
+  write("opacity.tiff", images.opacity);
+  write("depth.tiff", images.depth);
+  write("depth_normalised.tiff", images.depth_normalised);
+  write("depth_median.tiff", images.depth_median);
+  write("uncertainty.tiff", images.uncertainty);
+  write("dominator_weight.tiff", images.dominator_weight);
+  std::vector<float> dominator(images.dominator.begin(), images.dominator.end());
+  write("dominator.tiff", dominator);
+}
+
+int render(const RenderOptions& options) {
+  const Camera camera = read_camera(options.camera);
+  std::vector<float> sensor_depth;
+  if (!options.sensor_depth.empty()) sensor_depth = read_sensor_depth(options, camera.intrinsics);
+  const GaussianCloud cloud = read_map(options.map);
+  std::error_code error;
+  std::filesystem::create_directories(options.out, error);
+  if (error) throw InputError(options.out, "cannot be created: " + error.message());
+  SplatEngine engine(options.engine);
+  engine.assign(cloud);
+  RenderImages images = sensor_depth.empty() ? engine.render(camera)
+                                             : engine.render(camera, std::span<const float>(sensor_depth));
+  write_images(options.out, images);
+  return kSuccess;
+}
+
+}  // namespace
+
+void add_render(CLI::App& program, Action& action) {
+  auto options = std::make_shared<RenderOptions>();
+  CLI::App* command = program.add_subcommand("render", "Renders a map from one camera");
+  command->add_option("--map", options->map, "Gaussians in the usual PLY layout")->required();
+  command->add_option("--camera", options->camera, "Camera, JSON")->required();
+  command->add_option("--out", options->out, "Folder of the images")->required();
+  CLI::Option* depth = command->add_option("--sensor-depth", options->sensor_depth,
+                                           "16-bit PNG of the camera's size, 0 is no measurement; gives the "
+                                           "uncertainty");
+  CLI::Option* scale =
+      command->add_option("--depth-scale", options->depth_scale,
+                          "Steps per metre of the sensor depth (metres = value / scale): 5000 for TUM RGB-D");
+  depth->needs(scale);
+  command->add_option("--device", options->engine.device,
+                      "Number or part of the name of the device, see surefield devices; default: the best");
+  command->footer(kExamples);
+  command->callback([options, &action] { action = [options] { return render(*options); }; });
+}
+
+}  // namespace surefield

@@ -1,0 +1,57 @@
+// surefield run: the options; the work is in run_session.
+#include <memory>
+
+#include "tools/command.h"
+#include "tools/run_session.h"
+
+namespace surefield {
+
+namespace {
+
+constexpr const char* kExamples =
+    "Writes into the folder of --out: trajectory.txt and keyframes.txt (TUM format, camera to world), "
+    "map.ply\n"
+    "(the Gaussians), metrics.json (docs/evaluation.md), config.yaml (every setting as used) and log.txt.\n"
+    "Ctrl-C finishes the current frame and saves everything; a second Ctrl-C quits at once.\n"
+    "\n"
+    "Examples:\n"
+    "  surefield run --dataset synthetic --out out/demo\n"
+    "  surefield run --dataset rgbd_dataset_freiburg1_desk --out out/desk --frames 100 --scale 0.5\n"
+    "  surefield run --dataset Replica/room0 --out out/room0 --set tracking.iterations=40 --set seed=2\n";
+
+}  // namespace
+
+void add_run(CLI::App& program, Action& action) {
+  auto options = std::make_shared<RunOptions>();
+  CLI::App* run =
+      program.add_subcommand("run", "Tracks the camera and builds the map of a recorded sequence");
+  run->add_option("--dataset", options->dataset,
+                  "Folder of the sequence, or \"synthetic\" for the embedded one")
+      ->required();
+  run->add_option("--out", options->out, "Folder of the results; files of an earlier run are overwritten")
+      ->required();
+  run->add_option("--format", options->format, "Layout of the dataset")
+      ->check(CLI::IsMember({"auto", "tum", "replica", "sevenscenes", "synthetic"}))
+      ->capture_default_str();
+  run->add_option("--config", options->config,
+                  "YAML file, or the name of a built-in one; default: the built-in one of the format");
+  run->add_option("--set", options->assignments, "Sets one key, as in --set tracking.iterations=40")
+      ->type_name("KEY=VALUE")
+      ->allow_extra_args(false)
+      ->take_all();
+  run->add_option("--frames", options->selection.frames, "Number of frames, at most; 0: all")
+      ->capture_default_str();
+  run->add_option("--start", options->selection.start, "Index of the first frame")->capture_default_str();
+  run->add_option("--stride", options->selection.stride, "Takes every so many frames")->capture_default_str();
+  run->add_option("--scale", options->selection.scale,
+                  "Size of the images relative to the originals, up to 1")
+      ->capture_default_str();
+  run->add_option("--device", options->engine.device,
+                  "Number or part of the name of the device, see surefield devices; default: the best");
+  run->add_flag("--validate", options->engine.validate, "Runs under Vulkan's validation layer (slow)");
+  run->add_flag("--quiet", options->quiet, "Prints errors only");
+  run->footer(kExamples);
+  run->callback([options, &action] { action = [options] { return run_session(*options); }; });
+}
+
+}  // namespace surefield

@@ -1,0 +1,38 @@
+#include "tools/run_configuration.h"
+
+#include "engine/io/error.h"
+#include "engine/synth/synthetic_dataset.h"
+#include "tools/build_info.h"
+
+namespace surefield {
+
+namespace {
+
+constexpr const char* kSynthetic = "synthetic";
+
+}  // namespace
+
+std::unique_ptr<Dataset> open_run_dataset(const RunOptions& options) {
+  if (options.dataset != kSynthetic) return open_dataset(options.dataset, options.format);
+  if (options.format != "auto" && options.format != kSynthetic) {
+    throw InputError("--dataset synthetic has no files of the format " + options.format +
+                     "; leave --format out (a folder of that name is given as ./synthetic)");
+  }
+  return std::make_unique<SyntheticDataset>();
+}
+
+std::string load_settings(SlamSettings& settings, const RunOptions& options, const std::string& format) {
+  ConfigSchema schema;
+  settings.bind(schema);
+  const BuiltInFiles& built_in = built_in_configs();
+  if (!options.config.empty()) {
+    schema.load_file(options.config, built_in);
+  } else {
+    const std::string own = format + ".yaml";
+    schema.load_built_in(built_in.contains(own) ? own : "base.yaml", built_in);
+  }
+  for (const std::string& assignment : options.assignments) schema.set(assignment);
+  return schema.dump();
+}
+
+}  // namespace surefield

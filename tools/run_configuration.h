@@ -1,0 +1,31 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "engine/io/frame_stream.h"
+#include "engine/slam/settings.h"
+
+namespace surefield {
+
+/// What the user asks `surefield run` to do.
+struct RunOptions {
+  std::string dataset;  ///< a folder, or "synthetic" for the embedded sequence
+  std::string format = "auto";
+  std::string config;                    ///< a file; empty: the built-in one of the format
+  std::vector<std::string> assignments;  ///< "key=value", applied after the file
+  std::string out;                       ///< folder of the results
+  FrameSelection selection;
+  EngineOptions engine;
+  bool quiet = false;
+};
+
+/// Opens the dataset that the options name. Throws InputError.
+std::unique_ptr<Dataset> open_run_dataset(const RunOptions& options);
+
+/// Reads the settings that the options and the dataset's format ask for into `settings`; returns the
+/// effective configuration as YAML. Throws InputError.
+std::string load_settings(SlamSettings& settings, const RunOptions& options, const std::string& format);
+
+}  // namespace surefield

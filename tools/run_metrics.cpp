@@ -1,0 +1,119 @@
+// metrics.json; the schema is described in docs/evaluation.md.
+#include <sys/resource.h>
+
+#include "tools/build_info.h"
+#include "tools/run_record.h"
+#include "tools/trajectory_report.h"
+
+namespace surefield {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr int kSchemaVersion = 1;
+constexpr double kMegabyte = 1e6;
+
+/// The most host memory that this process has used, bytes.
+double host_peak_bytes() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return 1024.0 * static_cast<double>(usage.ru_maxrss);  // Linux counts in KiB
+}
+
+const char* name(RunEnd end) {
+  switch (end) {
+    case RunEnd::Completed:
+      return "completed";
+    case RunEnd::Interrupted:
+      return "interrupted";
+    default:
+      return "failed";
+  }
+}
+
+Json dataset_json(const RunRecord& record) {
+  return {{"name", record.dataset},           {"format", record.format},
+          {"width", record.intrinsics.width}, {"height", record.intrinsics.height},
+          {"start", record.selection.start},  {"stride", record.selection.stride},
+          {"scale", record.selection.scale}};
+}
+
+Json frames_json(const RunRecord& record) {
+  return {
+      {"total", record.selected},
+      {"fed", record.frames.size()},
+      {"skipped", record.skipped.size()},
+      {"lost", count_frames(record.frames, [](const FrameReport& frame) { return frame.lost; })},
+      {"retried", count_frames(record.frames, [](const FrameReport& frame) { return frame.retries > 0; })},
+      {"keyframes", record.keyframes.size()}};
+}
+
+Json time_json(const RunRecord& record) {
+  const IterationTotal tracking = tracking_total(record.frames);
+  const IterationTotal mapping = mapping_total(record.frames);
+  return {{"setup_s", record.setup_seconds},
+          {"total_s", record.seconds},
+          {"frames_per_second", record.frames_per_second()},
+          {"tracking_s", tracking.seconds},
+          {"tracking_iterations", tracking.iterations},
+          {"tracking_ms_per_iteration", tracking.milliseconds_each()},
+          {"mapping_s", mapping.seconds},
+          {"mapping_iterations", mapping.iterations},
+          {"mapping_ms_per_iteration", mapping.milliseconds_each()}};
+}
+
+Json accuracy_json(const RunRecord& record) {
+  if (!record.accuracy) return nullptr;
+  Json json = trajectory_json(*record.accuracy);
+  json["keyframes_ate_rmse_m"] =
+      record.keyframe_accuracy ? Json(record.keyframe_accuracy->ate.rmse) : Json(nullptr);
+  return json;
+}
+
+Json frame_json(const FrameReport& frame) {
+  return {{"index", frame.index},
+          {"timestamp_s", frame.timestamp},
+          {"keyframe", frame.keyframe},
+          {"lost", frame.lost},
+          {"retries", frame.retries},
+          {"loss", frame.tracking_loss},
+          {"valid_fraction", frame.valid_fraction},
+          {"tracking_iterations", frame.tracking_iterations},
+          {"tracking_ms", frame.tracking_ms},
+          {"mapping_iterations", frame.mapping_iterations},
+          {"mapping_ms", frame.mapping_ms},
+          {"gaussians", frame.gaussians}};
+}
+
+}  // namespace
+
+std::string metrics_json(const RunRecord& record) {
+  Json json;
+  json["schema"] = "surefield-metrics";
+  json["version"] = kSchemaVersion;
+  json["status"] = name(record.end);
+  json["error"] = record.error.empty() ? Json(nullptr) : Json(record.error);
+  json["program"] = {{"version", kVersion}, {"commit", kGitCommit}};
+  json["device"] = {{"name", record.engine.device}, {"driver", record.engine.driver}};
+  json["dataset"] = dataset_json(record);
+  json["frames"] = frames_json(record);
+  json["time"] = time_json(record);
+  json["map"] = {{"gaussians", record.gaussians()},
+                 {"megabytes", static_cast<double>(record.engine.map_bytes) / kMegabyte}};
+  json["memory"] = {{"device_peak_mb", static_cast<double>(record.engine.device_peak_bytes) / kMegabyte},
+                    {"host_peak_mb", host_peak_bytes() / kMegabyte}};
+  json["trajectory"] = accuracy_json(record);
+  json["images"] = {{"psnr_db", record.psnr ? Json(*record.psnr) : Json(nullptr)},
+                    {"frames", record.psnr_frames}};
+  json["skipped"] = Json::array();
+  for (const SkippedFrame& frame : record.skipped) {
+    json["skipped"].push_back({{"index", frame.index}, {"reason", frame.reason}});
+  }
+  json["per_frame"] = Json::array();
+  for (const FrameReport& frame : record.frames) json["per_frame"].push_back(frame_json(frame));
+  // File names in reasons may be in any encoding.
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace surefield

@@ -1,0 +1,236 @@
+#include "tools/run_session.h"
+
+#include <fmt/format.h>
+#include <spdlog/sinks/basic_file_sink.h>
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+#include <chrono>
+#include <exception>
+#include <filesystem>
+#include <new>
+
+#include "engine/gpu/error.h"
+#include "engine/io/error.h"
+#include "engine/io/files.h"
+#include "engine/io/ply.h"
+#include "tools/build_info.h"
+#include "tools/command.h"
+#include "tools/interrupt.h"
+#include "tools/map_quality.h"
+#include "tools/progress.h"
+#include "tools/run_record.h"
+
+namespace surefield {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+/// The folder of the results with its log.
+class Results {
+ public:
+  explicit Results(const std::filesystem::path& folder) : folder_(folder), log_("surefield") {
+    std::error_code error;
+    std::filesystem::create_directories(folder, error);
+    if (error) throw InputError(folder, "cannot be created: " + error.message());
+    try {
+      log_.sinks().push_back(
+          std::make_shared<spdlog::sinks::basic_file_sink_mt>((folder / "log.txt").string(), true));
+    } catch (const spdlog::spdlog_ex& problem) {
+      throw InputError(folder, "cannot be written to; check its permissions");
+    }
+    log_.set_pattern("%Y-%m-%d %H:%M:%S.%e %l: %v");
+    log_.flush_on(spdlog::level::info);
+    // A log that cannot be written on is no reason to stop.
+    log_.set_error_handler([](const std::string&) {});
+  }
+
+  /// Writes one file; a failure is logged and kept, so that the other files are written all the same.
+  template <typename Write>
+  void save(const std::string& name, Write write) {
+    try {
+      write(folder_ / name);
+    } catch (...) {
+      problems_.push_back(name + " is not saved: " + describe_current_exception());
+      log_.error(problems_.back());
+    }
+  }
+
+  spdlog::logger& log() { return log_; }
+  const std::filesystem::path& folder() const { return folder_; }
+  const std::vector<std::string>& problems() const { return problems_; }
+
+ private:
+  std::filesystem::path folder_;
+  spdlog::logger log_;
+  std::vector<std::string> problems_;
+};
+
+void write_text(const std::filesystem::path& file, const std::string& text) {
+  write_file(file, [&](std::ostream& stream) { stream << text; });
+}
+
+/// Feeds the frames of a stream to SLAM and keeps account.
+class Feeder {
+ public:
+  Feeder(FrameStream& stream, Slam& slam, spdlog::logger& log, bool quiet)
+      : stream_(stream), slam_(slam), log_(log), progress_(stream.size(), quiet) {}
+
+  /// Until the last frame, an interruption or an error, which is thrown.
+  void feed_all() {
+    while (!interrupted()) {
+      const std::optional<Frame> frame = stream_.next();
+      note_unreadable();
+      if (!frame) return;
+      feed(*frame);
+    }
+  }
+
+  const std::vector<SkippedFrame>& skipped() const { return skipped_; }
+
+ private:
+  void feed(const Frame& frame) {
+    try {
+      const FrameReport& report = slam_.feed(frame);
+      log_.log(
+          report.lost ? spdlog::level::warn : spdlog::level::info,
+          "frame {}:{}{} loss {:.5f}, valid {:.3f}, tracking {} its {:.0f} ms, mapping {} its {:.0f} ms, "
+          "{} Gaussians",
+          report.index, report.keyframe ? " keyframe," : "", report.lost ? " lost," : "",
+          report.tracking_loss, report.valid_fraction, report.tracking_iterations, report.tracking_ms,
+          report.mapping_iterations, report.mapping_ms, report.gaussians);
+      progress_.fed(report);
+    } catch (const gpu::Error&) {
+      throw;
+    } catch (const std::bad_alloc&) {
+      throw;
+    } catch (const std::exception&) {
+      skip({frame.index, describe_current_exception()});
+    }
+  }
+
+  void note_unreadable() {
+    for (; unreadable_ < stream_.skipped().size(); ++unreadable_) skip(stream_.skipped()[unreadable_]);
+  }
+
+  void skip(const SkippedFrame& frame) {
+    skipped_.push_back(frame);
+    log_.warn("frame {} skipped: {}", frame.index, frame.reason);
+    progress_.skipped(fmt::format("frame {}: {}", frame.index, frame.reason));
+  }
+
+  FrameStream& stream_;
+  Slam& slam_;
+  spdlog::logger& log_;
+  Progress progress_;
+  std::size_t unreadable_ = 0;  ///< of stream_.skipped(), those noted so far
+  std::vector<SkippedFrame> skipped_;
+};
+
+std::optional<TrajectoryMetrics> accuracy(const Trajectory& estimate, const Trajectory* truth) {
+  if (!truth) return std::nullopt;
+  try {
+    return evaluate_trajectory(estimate, *truth);
+  } catch (const InputError&) {
+    return std::nullopt;  // too few poses to compare
+  }
+}
+
+/// What the dataset and the stream say about a run before it starts.
+RunRecord start_record(const RunOptions& options, const Dataset& dataset, const FrameStream& stream) {
+  RunRecord record;
+  record.dataset = dataset.name();
+  record.format = dataset.format();
+  record.selection = options.selection;
+  record.selected = stream.size();
+  record.intrinsics = stream.intrinsics();
+  return record;
+}
+
+/// Adds what SLAM and the ground truth say about a run that has ended.
+void complete_record(RunRecord& record, const Slam& slam, const Dataset& dataset) {
+  record.frames = slam.reports();
+  record.trajectory = slam.trajectory();
+  record.keyframes = slam.keyframes();
+  record.engine = slam.engine_report();
+  record.accuracy = accuracy(record.trajectory, dataset.ground_truth());
+  record.keyframe_accuracy = accuracy(record.keyframes, dataset.ground_truth());
+}
+
+void save_results(Results& results, RunRecord& record, const Slam& slam, const Dataset& dataset) {
+  results.save("trajectory.txt", [&](const auto& file) { write_trajectory(file, record.trajectory); });
+  results.save("keyframes.txt", [&](const auto& file) { write_trajectory(file, record.keyframes); });
+  results.save("map.ply", [&](const auto& file) { write_ply(file, slam.map()); });
+  if (record.end == RunEnd::Completed) {
+    results.save("the image quality", [&](const auto&) { measure_map_quality(record, slam, dataset); });
+  }
+  results.save("metrics.json", [&](const auto& file) { write_text(file, metrics_json(record)); });
+}
+
+/// Tells the log, and unless `quiet` the user, how the run went.
+void report(Results& results, const RunRecord& record, bool quiet) {
+  for (const std::string& message : record.engine.validation_messages) {
+    results.log().error("validation: {}", message);
+    fmt::print(stderr, "surefield: validation: {}\n", message);
+  }
+  const std::string summary = run_summary(record);
+  results.log().info("summary\n{}", summary);
+  if (!quiet) fmt::print("{}results          {}\n", summary, results.folder().string());
+  std::fflush(stdout);
+}
+
+void log_start(spdlog::logger& log, const RunRecord& record, const Dataset& dataset, const Slam& slam) {
+  const EngineReport engine = slam.engine_report();
+  log.info("surefield {} ({}) on {}, {}", kVersion, kGitCommit, engine.device, engine.driver);
+  log.info("{} ({}): {} frames of {} x {}", record.dataset, record.format, record.selected,
+           record.intrinsics.width, record.intrinsics.height);
+  for (const std::string& warning : dataset.warnings()) log.warn(warning);
+}
+
+}  // namespace
+
+int run_session(const RunOptions& options) {
+  catch_interrupts();
+  const auto dataset = open_run_dataset(options);
+  SlamSettings settings;
+  const std::string effective = load_settings(settings, options, dataset->format());
+  FrameStream stream(*dataset, options.selection);
+  RunRecord record = start_record(options, *dataset, stream);
+  Results results(options.out);
+  write_text(results.folder() / "config.yaml", effective);
+
+  const Clock::time_point setup_start = Clock::now();
+  Slam slam(settings, stream.intrinsics(), options.engine);
+  record.setup_seconds = seconds_since(setup_start);
+  log_start(results.log(), record, *dataset, slam);
+
+  std::exception_ptr failure;
+  const Clock::time_point start = Clock::now();
+  {
+    Feeder feeder(stream, slam, results.log(), options.quiet);
+    try {
+      feeder.feed_all();
+    } catch (...) {
+      failure = std::current_exception();
+      record.error = describe_current_exception();
+      results.log().error(record.error);
+    }
+    record.skipped = feeder.skipped();
+  }
+  record.seconds = seconds_since(start);
+  record.end = failure ? RunEnd::Failed : interrupted() ? RunEnd::Interrupted : RunEnd::Completed;
+  complete_record(record, slam, *dataset);
+  save_results(results, record, slam, *dataset);
+  report(results, record, options.quiet);
+  for (const std::string& problem : results.problems()) print_error(problem);
+  if (failure) std::rethrow_exception(failure);
+  if (!results.problems().empty()) return kFailure;
+  return interrupted() ? kInterrupted : kSuccess;
+}
+
+}  // namespace surefield

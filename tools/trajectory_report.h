@@ -1,0 +1,16 @@
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "engine/eval/trajectory_metrics.h"
+
+namespace surefield {
+
+/// Trajectory errors as docs/evaluation.md describes them: metres and radians.
+nlohmann::ordered_json trajectory_json(const TrajectoryMetrics& metrics);
+
+/// The same as lines for people, in centimetres and degrees.
+std::string trajectory_table(const TrajectoryMetrics& metrics);
+
+}  // namespace surefield
