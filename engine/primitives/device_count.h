@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <initializer_list>
 
 #include "engine/gpu/buffer.h"
 #include "engine/gpu/glsl_types.h"
@@ -13,5 +14,9 @@ struct DeviceCount {
   const gpu::Array<glsl::uint>& value;
   uint32_t capacity;
 };
+
+/// Throws gpu::Error(Limit) unless every one of `buffers`, arrays of 4-byte elements, has room for the
+/// capacity.
+void require_room(const DeviceCount& count, std::initializer_list<const gpu::Buffer*> buffers);
 
 }  // namespace surefield

@@ -15,7 +15,7 @@ constexpr uint32_t kOffsetsGroupSize = 64;
 }  // namespace
 
 SortShape SortShape::for_device(const gpu::DeviceLimits& limits) {
-  if (limits.is_cpu) return {.group_size = 16, .columns = 128, .chunk_least = 128, .offsets_team = 1};
+  if (limits.is_cpu) return {.group_size = 16, .columns = 128, .chunk_least = 256, .offsets_team = 1};
   return {.group_size = 32, .columns = 8192, .chunk_least = 32, .offsets_team = 256};
 }
 
@@ -40,6 +40,7 @@ uint32_t RadixSort::columns_for(uint32_t capacity) const {
 
 void RadixSort::record(gpu::Recorder& recorder, const gpu::Array<glsl::uint>& keys,
                        const gpu::Array<glsl::uint>& values, const DeviceCount& count, uint32_t bits) {
+  require_room(count, {&keys.buffer(), &values.buffer()});
   recorder.reserve(table_, uint64_t{columns_for(count.capacity)} * glsl::SORT_DIGITS_MAX);
   recorder.reserve(other_keys_, count.capacity);
   recorder.reserve(other_values_, count.capacity);

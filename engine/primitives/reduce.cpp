@@ -11,6 +11,7 @@ Reduce::Reduce(gpu::Device& device)
 
 void Reduce::sum(gpu::Recorder& recorder, const gpu::Array<float>& values, const gpu::Array<float>& result,
                  const DeviceCount& count) {
+  require_room(count, {&values.buffer()});
   const uint32_t chunks = std::min(count.capacity / glsl::REDUCE_CHUNK_LEAST + 1, glsl::REDUCE_CHUNKS);
   recorder.dispatch(chunks_, chunks_.groups(chunks),
                     {.count = count.value, .values = values, .partial_sums = partial_sums_},

@@ -29,6 +29,7 @@ ExclusiveScan::ExclusiveScan(gpu::Device& device, const ScanShape& shape)
 void ExclusiveScan::record(gpu::Recorder& recorder, const gpu::Array<glsl::uint>& input,
                            const gpu::Array<glsl::uint>& output, const gpu::Array<glsl::uint>& total,
                            const DeviceCount& count) {
+  require_room(count, {&input.buffer(), &output.buffer()});
   const uint32_t wanted = std::min(count.capacity / (kChunkLeast * shape_.group_size) + 1, shape_.groups);
   const uint32_t needed = count.capacity / (kChunkMax * shape_.group_size) + 1;
   const uint32_t groups = std::max(wanted, needed);
