@@ -17,7 +17,8 @@ void main() {
     const int row = first + p - WINDOW_RADIUS;
     const bool inside = row >= 0 && row < int(params.height);
     const SsimMoments s = moments[uint(clamp(row, 0, int(params.height) - 1)) * params.width + column];
-    [[unroll]] for (int o = max(0, p - 2 * WINDOW_RADIUS); o < min(STRIP, p + 1); ++o) {
+    [[unroll]] for (int o = 0; o < STRIP; ++o) {
+      if (p < o || p > o + 2 * WINDOW_RADIUS) continue;  // decided when the loops are unrolled
       const float w = inside ? WINDOW[p - o] : 0.0;
       m[o].x += w * s.x;
       m[o].y += w * s.y;

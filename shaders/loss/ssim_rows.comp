@@ -19,7 +19,8 @@ void main() {
     const uint at = row + uint(clamp(column, 0, int(params.width) - 1));
     const float mask = inside ? 1.0 : 0.0;
     const vec3 x = mask * colour_opacity[at].rgb, y = mask * unpackUnorm4x8(sensor_colour[at]).rgb;
-    [[unroll]] for (int o = max(0, p - 2 * WINDOW_RADIUS); o < min(STRIP, p + 1); ++o) {
+    [[unroll]] for (int o = 0; o < STRIP; ++o) {
+      if (p < o || p > o + 2 * WINDOW_RADIUS) continue;  // decided when the loops are unrolled
       const float w = WINDOW[p - o];
       m[o].x += w * x;
       m[o].y += w * y;

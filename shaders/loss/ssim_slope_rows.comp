@@ -17,7 +17,8 @@ void main() {
     const int column = first + p - WINDOW_RADIUS;
     const bool inside = column >= 0 && column < int(params.width);
     const SsimSlopes s = slopes[row + uint(clamp(column, 0, int(params.width) - 1))];
-    [[unroll]] for (int o = max(0, p - 2 * WINDOW_RADIUS); o < min(STRIP, p + 1); ++o) {
+    [[unroll]] for (int o = 0; o < STRIP; ++o) {
+      if (p < o || p > o + 2 * WINDOW_RADIUS) continue;  // decided when the loops are unrolled
       const float w = inside ? WINDOW[p - o] : 0.0;
       g[o].x += w * s.x;
       g[o].xx += w * s.xx;
