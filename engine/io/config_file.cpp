@@ -98,9 +98,11 @@ std::vector<ConfigValue> read_with_base(const Source& source, std::vector<Source
                                  [](const ConfigValue& value) { return value.key == kBaseKey; });
   if (base != own.values.end()) {
     values = read_with_base(find_base(source, *base, built_in), chain, built_in);
-    own.values.erase(base);
   }
-  values.insert(values.end(), own.values.begin(), own.values.end());
+  // Only ever copied anew: assigning one YAML::Node to another changes every copy of the former.
+  for (const ConfigValue& value : own.values) {
+    if (value.key != kBaseKey) values.push_back(value);
+  }
   return values;
 }
 

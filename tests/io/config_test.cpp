@@ -199,6 +199,17 @@ TEST_CASE("configuration files of the program stand in for those that the disk l
     bound.schema.load_file("fast.yaml", built_in);
     CHECK(bound.settings.iterations == 3);
   }
+  {
+    Bound bound;
+    bound.schema.load_file(folder.write("many.yaml",
+                                        "base: base.yaml\ntracking: {iterations: 3, rate: 0.25, mask: "
+                                        "{opacity: 0.75}}\noutput: there\n"),
+                           built_in);
+    CHECK(bound.settings.iterations == 3);
+    CHECK(bound.settings.rate == 0.25);
+    CHECK(bound.settings.opacity == 0.75f);
+    CHECK(bound.settings.output == "there");
+  }
   Bound bound;
   CHECK(contains(input_error([&] { bound.schema.load_built_in("circle.yaml", built_in); }), "leads back to"));
   CHECK(contains(input_error([&] { bound.schema.load_built_in("wrong.yaml", built_in); }),
