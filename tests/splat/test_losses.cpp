@@ -1,0 +1,162 @@
+#include <doctest/doctest.h>
+
+#include "engine/gpu/recorder.h"
+#include "engine/splat/mapper.h"
+#include "engine/splat/tracker.h"
+#include "tests/reference/losses.h"
+#include "tests/reference/scenes.h"
+#include "tests/reference/splatting.h"
+#include "tests/splat/compare.h"
+#include "tests/support/device.h"
+
+using namespace surefield;
+using testing::largest_difference;
+using testing::magnitude;
+
+namespace {
+
+/// A scene, what a camera saw of it in the 8 bits that frames have, and what the device renders of it.
+struct Observed {
+  reference::Scene scene;
+  std::vector<uint8_t> colour_bytes;
+  std::vector<float> colour;  ///< the same in [0, 1]
+  RenderImages rendered;
+};
+
+Observed observe(const reference::Scene& scene, Rasteriser& rasteriser, const GaussianMap& map) {
+  Observed o{scene, {}, {}, rasteriser.render(map, scene.camera, scene.depth)};
+  for (float c : scene.colour) {
+    o.colour_bytes.push_back(static_cast<uint8_t>(std::lround(c * 255)));
+    o.colour.push_back(static_cast<float>(o.colour_bytes.back()) / 255);
+  }
+  return o;
+}
+
+FrameView view_of(const Observed& o) {
+  return {o.rendered.width, o.rendered.height, o.colour_bytes.data(), o.scene.depth.data(), 1e3f};
+}
+
+/// dL/d(images) as the device left it, field by field, and as the oracle has it.
+void compare_gradients(const std::vector<glsl::PixelGradient>& got, const reference::ImageGradients& want,
+                       const std::vector<uint8_t>& skip) {
+  const auto check = [&](const std::string& name, auto field, const std::vector<double>& oracle) {
+    CAPTURE(name);
+    const double scale = magnitude(oracle);
+    double worst = 0;
+    for (std::size_t i = 0; i < got.size(); ++i)
+      if (!skip[i]) worst = std::max(worst, std::abs(field(got[i]) - oracle[i]) / scale);
+    CHECK(worst < 1e-3);
+  };
+  std::vector<double> red, green, blue;
+  for (std::size_t i = 0; i < got.size(); ++i) {
+    red.push_back(want.colour[3 * i]);
+    green.push_back(want.colour[3 * i + 1]);
+    blue.push_back(want.colour[3 * i + 2]);
+  }
+  check(
+      "red", [](const auto& g) { return g.colour.x; }, red);
+  check(
+      "green", [](const auto& g) { return g.colour.y; }, green);
+  check(
+      "blue", [](const auto& g) { return g.colour.z; }, blue);
+  check(
+      "depth", [](const auto& g) { return g.depth; }, want.depth);
+  check(
+      "normalised", [](const auto& g) { return g.depth_normalised; }, want.depth_normalised);
+  check(
+      "median", [](const auto& g) { return g.depth_median; }, want.depth_median);
+  check(
+      "uncertainty", [](const auto& g) { return g.uncertainty; }, want.uncertainty);
+}
+
+}  // namespace
+
+TEST_CASE("the mapping loss and its gradient agree with the oracle") {
+  gpu::Device& device = testing::device();
+  Rasteriser rasteriser(device);
+  Mapper mapper(device);
+  GaussianMap map(device);
+  for (DepthKind kind : {DepthKind::Alpha, DepthKind::Normalised})
+    for (auto [width, height] : {std::pair{1, 1}, {9, 5}, {48, 36}, {83, 61}}) {
+      CAPTURE(width);
+      const auto scene = reference::random_scene(7, 200, {.width = width, .height = height});
+      map.assign(scene.cloud);
+      const Observed o = observe(scene, rasteriser, map);
+      const SensorFrame frame(device, view_of(o));
+      CameraVariable camera(device, scene.camera);
+      MappingSettings settings;
+      settings.depth = kind;
+      gpu::Recorder recorder(device);
+      mapper.record_loss(recorder, rasteriser, map, frame, camera.camera, settings);
+      recorder.submit();
+
+      // The oracle's loss of the device's own images: what is compared is the loss alone.
+      const reference::Images images(o.rendered);
+      const auto want = reference::mapping_loss(
+          images, {o.colour, o.scene.depth}, reference::Gaussians(scene.cloud),
+          std::vector<uint8_t>(scene.cloud.size(), 0),
+          {.colour = settings.weight_colour,
+           .ssim = settings.weight_ssim,
+           .depth = settings.weight_depth,
+           .align = settings.weight_align,
+           .isotropy = 0,
+           .variance = settings.weight_variance,
+           .depth_kind =
+               kind == DepthKind::Alpha ? reference::DepthKind::alpha : reference::DepthKind::normalised});
+      CHECK(mapper.read_loss(frame, settings) == doctest::Approx(want.total).epsilon(1e-4));
+      // Where depth and median agree to the last bits, the sign of their difference is a matter of rounding.
+      std::vector<uint8_t> skip(images.opacity.size(), 0);
+      for (std::size_t i = 0; i < skip.size(); ++i) {
+        const double depth = kind == DepthKind::Alpha ? images.depth[i] : images.depth_normalised[i];
+        skip[i] = images.depth_median[i] > 0 && std::abs(depth - images.depth_median[i]) < 1e-5;
+      }
+      compare_gradients(rasteriser.pixel_gradients.download(frame.size.pixels()), want.images, skip);
+    }
+}
+
+TEST_CASE("the tracking loss, its masks and its gradient agree with the oracle") {
+  gpu::Device& device = testing::device();
+  Rasteriser rasteriser(device);
+  Tracker tracker(device);
+  GaussianMap map(device);
+  for (DepthKind kind : {DepthKind::Alpha, DepthKind::Normalised})
+    for (double minimum_opacity : {0.3, 0.9}) {
+      auto scene =
+          reference::random_scene(9, 400, {.kind = reference::SceneKind::mixed, .width = 61, .height = 47});
+      map.assign(scene.cloud);
+      // A few gross outliers, so that the masks have something to do.
+      for (std::size_t i = 0; i < scene.depth.size(); i += 29) scene.depth[i] *= 40;
+      const Observed o = observe(scene, rasteriser, map);
+      const SensorFrame frame(device, view_of(o));
+      TrackingSettings settings;
+      settings.depth = kind;
+      settings.minimum_opacity = minimum_opacity;
+      const glsl::CameraState state = to_device(scene.camera);
+      tracker.camera.upload(std::span(&state, 1));
+      gpu::Recorder recorder(device);
+      tracker.record_loss(recorder, rasteriser, map, frame, settings);
+      recorder.submit();
+
+      const auto want = reference::tracking_loss(
+          reference::Images(o.rendered), {o.colour, o.scene.depth},
+          {.colour = settings.weight_colour,
+           .depth = settings.weight_depth,
+           .minimum_opacity = minimum_opacity,
+           .outlier_factor = settings.outlier_factor,
+           .depth_kind =
+               kind == DepthKind::Alpha ? reference::DepthKind::alpha : reference::DepthKind::normalised});
+      const glsl::TrackSums sums = tracker.sums.download(1)[0];
+      double colour_pixels = 0, depth_pixels = 0;
+      for (auto m : want.colour_mask) colour_pixels += m;
+      for (auto m : want.depth_mask) depth_pixels += m;
+      REQUIRE(depth_pixels > 50);
+      // The device's median is interpolated in a bin of 1/64 octave; no residual may lie between the two
+      // limits.
+      CHECK(sums.colour_pixels == colour_pixels);
+      CHECK(sums.depth_pixels == depth_pixels);
+      CHECK(sums.colour / sums.colour_pixels == doctest::Approx(want.colour).epsilon(1e-4));
+      CHECK(sums.depth / sums.depth_pixels == doctest::Approx(want.depth).epsilon(1e-4));
+      compare_gradients(rasteriser.pixel_gradients.download(frame.size.pixels()), want.images,
+                        std::vector<uint8_t>(frame.size.pixels(), 0));
+    }
+}

@@ -1,0 +1,257 @@
+#include <doctest/doctest.h>
+
+#include <cmath>
+
+#include "engine/gpu/recorder.h"
+#include "engine/splat/densifier.h"
+#include "engine/splat/mapper.h"
+#include "engine/splat/tracker.h"
+#include "tests/reference/losses.h"
+#include "tests/reference/scenes.h"
+#include "tests/reference/splatting.h"
+#include "tests/splat/compare.h"
+#include "tests/support/device.h"
+
+using namespace surefield;
+
+namespace {
+
+/// Adam as in the paper of Kingma and Ba, in double precision, for one number.
+struct ReferenceAdam {
+  double m = 0, v = 0;
+  int t = 0;
+
+  double step(double g, double rate) {
+    ++t;
+    m = 0.9 * m + 0.1 * g;
+    v = 0.999 * v + 0.001 * g * g;
+    return -rate * (m / (1 - std::pow(0.9, t))) / (std::sqrt(v / (1 - std::pow(0.999, t))) + 1e-15);
+  }
+};
+
+/// A textured wall two metres away, one Gaussian per pixel, as a frame of it would spawn.
+GaussianCloud wall(int width, int height, double focal) {
+  GaussianCloud cloud;
+  for (int v = 0; v < height; ++v)
+    for (int u = 0; u < width; ++u) {
+      const double z = 2 + 0.4 * std::sin(0.2 * u) * std::cos(0.15 * v);
+      cloud.means.emplace_back(z * (u - width / 2.0) / focal, z * (v - height / 2.0) / focal, z);
+      cloud.log_scales.push_back(Eigen::Vector3f::Constant(static_cast<float>(std::log(z / focal))));
+      cloud.rotations.emplace_back(1, 0, 0, 0);
+      cloud.opacity_logits.push_back(3.0f);
+      for (int c = 0; c < 3; ++c)
+        cloud.sh.push_back(static_cast<float>(std::sin(0.5 * u + c) * std::cos(0.4 * v - c)));
+    }
+  return cloud;
+}
+
+/// The frame that a camera sees of a map.
+SensorFrame frame_of(gpu::Device& device, Rasteriser& rasteriser, const GaussianMap& map,
+                     const Camera& camera) {
+  const RenderImages images = rasteriser.render(map, camera);
+  std::vector<uint8_t> colour;
+  for (float c : images.colour)
+    colour.push_back(static_cast<uint8_t>(std::lround(std::clamp(c, 0.0f, 1.0f) * 255)));
+  std::vector<float> depth = images.depth_normalised;
+  for (std::size_t i = 0; i < depth.size(); ++i)
+    if (images.opacity[i] < 0.95f) depth[i] = 0;
+  return SensorFrame(device, {images.width, images.height, colour.data(), depth.data(), 10});
+}
+
+Camera wall_camera() {
+  return {{.width = 96, .height = 72, .fx = 90, .fy = 90, .cx = 47.5, .cy = 35.5}};
+}
+
+}  // namespace
+
+TEST_CASE("Adam on the map follows the reference, for visible Gaussians alone") {
+  gpu::Device& device = testing::device();
+  Rasteriser rasteriser(device);
+  Mapper mapper(device);
+  GaussianMap map(device);
+  const auto scene =
+      reference::random_scene(3, 60, {.kind = reference::SceneKind::behind_camera, .sh_degree = 1});
+  map.assign(scene.cloud);
+  std::vector<uint8_t> bytes(scene.colour.size(), 128);
+  const SensorFrame frame(device, {scene.camera.intrinsics.width, scene.camera.intrinsics.height,
+                                   bytes.data(), scene.depth.data(), 10});
+  CameraVariable camera(device, scene.camera);
+  MappingSettings settings;
+  std::vector<ReferenceAdam> mean_adam(scene.cloud.size()), logit_adam(scene.cloud.size()),
+      sh_adam(scene.cloud.size());
+  gpu::Recorder recorder(device);
+  for (int step = 0; step < 3; ++step) {
+    const GaussianCloud before = map.download();
+    mapper.record_step(recorder, rasteriser, map, frame, camera, false, settings, 2.0);
+    recorder.submit();
+    const GaussianCloud after = map.download();
+    const auto gradients = rasteriser.gaussian_gradients.download(map.size());
+    const auto sh_gradients = rasteriser.sh_gradients.download(map.size() * 4);
+    const uint32_t visible = rasteriser.lists.read_status().visible;
+    std::vector<bool> is_visible(map.size(), false);
+    for (uint32_t id : rasteriser.lists.visible_ids.download(visible)) is_visible[id] = true;
+    REQUIRE(visible > 5);
+    REQUIRE(visible < map.size());
+    for (uint32_t i = 0; i < map.size(); ++i) {
+      if (!is_visible[i]) {
+        CHECK(after.means[i] == before.means[i]);
+        CHECK(after.opacity_logits[i] == before.opacity_logits[i]);
+        continue;
+      }
+      const double mean = before.means[i].x() + mean_adam[i].step(gradients[i].mean.x, 3e-4 * 2.0);
+      CHECK(after.means[i].x() == doctest::Approx(mean).epsilon(1e-5));
+      const double logit = before.opacity_logits[i] + logit_adam[i].step(gradients[i].opacity_logit, 5e-2);
+      CHECK(after.opacity_logits[i] == doctest::Approx(logit).epsilon(1e-4));
+      const double sh = before.sh[(i * 4 + 1) * 3] + sh_adam[i].step(sh_gradients[i * 4 + 1].x, 2.5e-3 / 20);
+      CHECK(after.sh[(i * 4 + 1) * 3] == doctest::Approx(sh).epsilon(1e-4));
+    }
+  }
+}
+
+TEST_CASE("the isotropy loss adds its gradient") {
+  gpu::Device& device = testing::device();
+  Rasteriser rasteriser(device);
+  GaussianMap map(device);
+  const auto scene = reference::random_scene(13, 50, {.kind = reference::SceneKind::anisotropic});
+  map.assign(scene.cloud);
+  rasteriser.render(map, scene.camera);
+  gpu::Array<glsl::CameraState> camera(device, "camera");
+  const glsl::CameraState state = to_device(scene.camera);
+  camera.upload(std::span(&state, 1));
+  gpu::Array<float> depth(device, "depth");
+  depth.upload(std::vector<float>(state.width * state.height, 0.0f));
+  gpu::Recorder recorder(device);
+  rasteriser.record_forward(recorder, map, {{state.width, state.height}, camera, depth}, Outputs::All);
+  recorder.submit();
+  rasteriser.pixel_gradients.upload(std::vector<glsl::PixelGradient>(state.width * state.height));
+  rasteriser.record_backward(recorder, map, {{state.width, state.height}, camera, depth}, 0.7f);
+  recorder.submit();
+
+  const uint32_t visible = rasteriser.lists.read_status().visible;
+  std::vector<uint8_t> flags(map.size(), 0);
+  for (uint32_t id : rasteriser.lists.visible_ids.download(visible)) flags[id] = 1;
+  const reference::Gaussians gaussians(scene.cloud);
+  const reference::Images images = reference::render(gaussians, scene.camera, {});
+  const auto want = reference::mapping_loss(
+      images, {scene.colour, scene.depth}, gaussians, flags,
+      {.colour = 0, .ssim = 0, .depth = 0, .align = 0, .isotropy = 0.7, .variance = 0});
+  const auto got = rasteriser.gaussian_gradients.download(map.size());
+  for (uint32_t i = 0; i < map.size(); ++i) {
+    if (!flags[i]) continue;
+    CHECK(got[i].log_scale.x == doctest::Approx(want.log_scales[i].x()).epsilon(1e-4));
+    CHECK(got[i].log_scale.y == doctest::Approx(want.log_scales[i].y()).epsilon(1e-4));
+    CHECK(got[i].log_scale.z == doctest::Approx(want.log_scales[i].z()).epsilon(1e-4));
+  }
+}
+
+TEST_CASE("tracking recovers a pose from a perturbed start") {
+  gpu::Device& device = testing::device();
+  Rasteriser rasteriser(device);
+  Tracker tracker(device);
+  GaussianMap map(device);
+  map.assign(wall(120, 90, 90));
+  const Camera truth = wall_camera();
+  const SensorFrame frame = frame_of(device, rasteriser, map, truth);
+  Camera start = truth;
+  start.world_to_camera = Eigen::Translation3d(0.01, -0.008, 0.012) *
+                          Eigen::AngleAxisd(0.01, Eigen::Vector3d(1, -2, 0.5).normalized());
+  for (PoseGradientKind kind : {PoseGradientKind::Full, PoseGradientKind::Light}) {
+    const TrackingResult result = tracker.track(
+        rasteriser, map, frame, start, {.iterations = 80, .minimum_opacity = 0.9, .pose_gradient = kind});
+    const Pose error = result.world_to_camera * truth.world_to_camera.inverse();
+    CHECK(error.translation().norm() < 2e-3);
+    CHECK(Eigen::AngleAxisd(error.rotation()).angle() < 1e-3);
+    CHECK(result.iterations <= 80);
+    CHECK(result.valid_fraction > 0.5);
+  }
+}
+
+TEST_CASE("tracking against an empty map ends with the starting pose") {
+  gpu::Device& device = testing::device();
+  Rasteriser rasteriser(device);
+  Tracker tracker(device);
+  GaussianMap map(device), walls(device);
+  walls.assign(wall(60, 45, 45));
+  const SensorFrame frame = frame_of(device, rasteriser, walls, wall_camera());
+  const TrackingResult result = tracker.track(rasteriser, map, frame, wall_camera(), {.iterations = 10});
+  CHECK(result.world_to_camera.isApprox(wall_camera().world_to_camera));
+  CHECK(result.valid_fraction == 0);
+}
+
+TEST_CASE("mapping lowers the loss and refines poses beside the map") {
+  SplatEngine engine({.device = std::getenv("SUREFIELD_DEVICE") ? std::getenv("SUREFIELD_DEVICE") : ""});
+  gpu::Device& device = testing::device();
+  Rasteriser rasteriser(device);
+  GaussianMap truth(device);
+  truth.assign(wall(120, 90, 90));
+  const Camera camera = wall_camera();
+  const RenderImages images = rasteriser.render(truth, camera);
+  std::vector<uint8_t> colour;
+  for (float c : images.colour)
+    colour.push_back(static_cast<uint8_t>(std::lround(std::clamp(c, 0.0f, 1.0f) * 255)));
+
+  GaussianCloud dull = wall(120, 90, 90);
+  for (float& c : dull.sh) c *= 0.3f;
+  engine.assign(dull);
+  const FrameHandle frame =
+      engine.load({images.width, images.height, colour.data(), images.depth_normalised.data(), 10});
+  Camera moved = camera;
+  moved.world_to_camera.translation().x() += 0.004;
+  std::vector<MappingView> views{{frame, camera, false}, {frame, moved, true}};
+  const std::vector<int> once{0}, both{0, 1, 0, 1, 0, 1, 0, 1, 0, 1, 0, 1, 0, 1, 0, 1, 0, 1, 0, 1};
+  const double first = engine.optimise(views, once, {}, 2).loss;
+  const double last = engine.optimise(views, both, {}, 2).loss;
+  CHECK(last < first);
+  CHECK(views[0].camera.world_to_camera.isApprox(camera.world_to_camera));
+  CHECK(std::abs(views[1].camera.world_to_camera.translation().x()) < 0.004);
+}
+
+TEST_CASE("densification plans: keep, clone, split, prune") {
+  const std::vector<GaussianStatistics> statistics{
+      {.opacity = 0.5f, .largest_scale = 0.001f, .screen_gradient = 0},    // kept
+      {.opacity = 0.001f, .largest_scale = 0.001f, .screen_gradient = 1},  // too faint
+      {.opacity = 0.5f, .largest_scale = 0.001f, .screen_gradient = 1},    // small: cloned
+      {.opacity = 0.5f, .largest_scale = 0.05f, .screen_gradient = 1},     // large: split
+      {.opacity = 0.5f, .largest_scale = 5.0f, .screen_gradient = 0},      // huge
+      {.opacity = NAN, .largest_scale = 0.001f, .screen_gradient = 0}};    // not a number
+  const DensifyPlan plan = plan_densification(statistics, {.extent = 2});
+  CHECK(plan.sources == std::vector<uint32_t>{0u | glsl::SOURCE_KEPT, 2u | glsl::SOURCE_KEPT,
+                                              2u | glsl::SOURCE_CLONE, 3u | glsl::SOURCE_SPLIT,
+                                              3u | glsl::SOURCE_SPLIT});
+  CHECK(plan.result.pruned == 3);
+  CHECK(plan.result.cloned == 1);
+  CHECK(plan.result.split == 1);
+  CHECK(plan_densification(statistics, {.extent = 2, .grow = false}).sources.size() == 3);
+}
+
+TEST_CASE("densification rebuilds the map as planned and is reproducible") {
+  gpu::Device& device = testing::device();
+  Densifier densifier(device);
+  const auto scene = reference::random_scene(5, 300, {.sh_degree = 1});
+  const auto run = [&] {
+    GaussianMap map(device);
+    map.assign(scene.cloud);
+    std::vector<glsl::vec2> statistics(300);
+    for (std::size_t i = 0; i < 300; i += 3) statistics[i] = {2.0f, 1.0f};
+    map.densification.upload(statistics);
+    const DensifyResult result = densifier.densify(map, {.maximum_scale = 1e6, .extent = 0.1, .seed = 7});
+    CHECK(map.size() == 300 - result.pruned + result.cloned + result.split);
+    CHECK(result.split + result.cloned > 50);
+    return map.download();
+  };
+  const GaussianCloud first = run(), second = run();
+  CHECK(first.means == second.means);
+  CHECK(first.sh == second.sh);
+  // Children come last, in pairs, smaller than their parent and near it.
+  const std::size_t last = first.size() - 1;
+  bool found = false;
+  for (std::size_t i = 0; i < scene.cloud.size(); ++i) {
+    const Eigen::Vector3f shrunk = scene.cloud.log_scales[i] - Eigen::Vector3f::Constant(std::log(1.6f));
+    if (!shrunk.isApprox(first.log_scales[last], 1e-5f)) continue;
+    found = true;
+    const float reach = 6 * std::exp(scene.cloud.log_scales[i].maxCoeff());
+    CHECK((first.means[last] - scene.cloud.means[i]).norm() < reach);
+    CHECK(first.means[last] != first.means[last - 1]);
+  }
+  CHECK(found);
+}
