@@ -15,7 +15,7 @@ constexpr uint32_t kOffsetsGroupSize = 64;
 }  // namespace
 
 SortShape SortShape::for_device(const gpu::DeviceLimits& limits) {
-  if (limits.is_cpu) return {.group_size = 16, .columns = 128, .chunk_least = 256, .offsets_team = 1};
+  if (limits.is_cpu) return {.group_size = 16, .columns = 512, .chunk_least = 512, .offsets_team = 1};
   return {.group_size = 32, .columns = 8192, .chunk_least = 32, .offsets_team = 256};
 }
 

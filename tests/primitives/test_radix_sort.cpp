@@ -91,7 +91,7 @@ TEST_CASE("radix sort gives the same result in every shape") {
   gpu::Device& device = testing::device();
   const auto keys = testing::random_words(10, 100003);
   for (const SortShape& shape :
-       {SortShape{.group_size = 16, .columns = 128, .chunk_least = 256, .offsets_team = 1},
+       {SortShape{.group_size = 16, .columns = 512, .chunk_least = 512, .offsets_team = 1},
         SortShape{.group_size = 32, .columns = 8192, .chunk_least = 32, .offsets_team = 256},
         SortShape{.group_size = 1, .columns = 7, .chunk_least = 1, .offsets_team = 2},
         SortShape{.group_size = 24, .columns = 1000, .chunk_least = 10, .offsets_team = 128}}) {
