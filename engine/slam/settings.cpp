@@ -18,6 +18,8 @@ void bind_tracking(ConfigSchema& schema, TrackingSettings& tracking) {
              "Adam's step of the rotation, radians");
   schema.add("tracking.rate_translation", &tracking.rate_translation, kRate,
              "Adam's step of the translation, metres");
+  schema.add("tracking.rate_decay", &tracking.rate_decay, Range{0.001, 1},
+             "steps shrink to this fraction of the rates by the last iteration");
   schema.add("tracking.weight_colour", &tracking.weight_colour, kWeight,
              "lambda_1, weight of the mean colour difference (colours are 0 to 1)");
   schema.add("tracking.weight_depth", &tracking.weight_depth, kWeight,

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <limits>
 
 namespace surefield {
@@ -77,15 +78,18 @@ void Tracker::record_loss(gpu::Recorder& recorder, Rasteriser& rasteriser, const
 }
 
 void Tracker::record_step(gpu::Recorder& recorder, const Rasteriser& rasteriser, const SensorFrame& frame,
-                          const TrackingSettings& settings) {
+                          const TrackingSettings& settings, int iteration) {
+  // Large steps to get there, small ones to settle.
+  const double progress = static_cast<double>(iteration) / std::max(1, settings.iterations - 1);
+  const double decay = std::pow(settings.rate_decay, progress);
   recorder.dispatch(step_pass_, 1,
                     {.status = rasteriser.lists.status,
                      .pose_gradient = rasteriser.pose_gradient,
                      .sums = sums,
                      .camera = camera,
                      .state = state_},
-                    {.rate_rotation = static_cast<float>(settings.rate_rotation),
-                     .rate_translation = static_cast<float>(settings.rate_translation),
+                    {.rate_rotation = static_cast<float>(settings.rate_rotation * decay),
+                     .rate_translation = static_cast<float>(settings.rate_translation * decay),
                      .weight_colour = static_cast<float>(settings.weight_colour),
                      .weight_depth = static_cast<float>(settings.weight_depth),
                      .sensor_pixels = static_cast<float>(frame.valid_pixels)});
@@ -106,7 +110,7 @@ TrackingResult Tracker::track(Rasteriser& rasteriser, const GaussianMap& map, co
     for (int i = 0; i < std::min(kBatch, settings.iterations - done); ++i) {
       record_loss(recorder, rasteriser, map, frame, settings);
       rasteriser.record_backward_pose(recorder, map, {frame.size, camera, frame.depth});
-      record_step(recorder, rasteriser, frame, settings);
+      record_step(recorder, rasteriser, frame, settings, done + i);
     }
     recorder.submit();
     if (rasteriser.lists.grow_after_overflow()) continue;  // those iterations changed nothing

@@ -1,0 +1,72 @@
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/slam/keyframes.h"
+
+using namespace surefield;
+
+namespace {
+
+const Intrinsics kIntrinsics{.width = 64, .height = 48, .fx = 60, .fy = 60, .cx = 31.5, .cy = 23.5};
+
+/// A keyframe of a wall two metres away, seen from (x, 0, 0) and turned by `yaw` radians.
+Keyframe keyframe(double x, double yaw = 0) {
+  Frame frame;
+  frame.depth = cv::Mat(48, 64, CV_32FC1, cv::Scalar(2.0));
+  Pose camera_to_world = Pose::Identity();
+  camera_to_world.translate(Eigen::Vector3d(x, 0, 0))
+      .rotate(Eigen::AngleAxisd(yaw, Eigen::Vector3d::UnitY()));
+  return {.camera = {kIntrinsics, camera_to_world.inverse()}, .points = sample_points(frame, kIntrinsics, 5)};
+}
+
+}  // namespace
+
+TEST_CASE("sampled points leave out invalid depth and lie where the pixel looks") {
+  Frame frame;
+  frame.depth = cv::Mat(48, 64, CV_32FC1, cv::Scalar(2.0));
+  CHECK(sample_points(frame, kIntrinsics, 5).size() == 12);
+  CHECK(sample_points(frame, kIntrinsics, 1).empty());
+  frame.depth.at<float>(8, 8) = 0;
+  frame.depth.at<float>(8, 24) = NAN;
+  const auto points = sample_points(frame, kIntrinsics, 5);
+  REQUIRE(points.size() == 10);
+  CHECK(points[0].isApprox(Eigen::Vector3f(2 * (40 - 31.5f) / 60, 2 * (8 - 23.5f) / 60, 2)));
+}
+
+TEST_CASE("overlap is one for the same view, less to the side, none behind") {
+  CHECK(overlap(keyframe(0), keyframe(0)) == 1);
+  const double beside = overlap(keyframe(0), keyframe(1));
+  CHECK(beside > 0.2);
+  CHECK(beside < 0.8);
+  CHECK(overlap(keyframe(0), keyframe(10)) == 0);
+  CHECK(overlap(keyframe(0), keyframe(0, M_PI)) == 0);
+  Keyframe blind = keyframe(0);
+  blind.points.clear();
+  CHECK(overlap(blind, keyframe(0)) == 0);
+}
+
+TEST_CASE("the window holds the current keyframe, the one before, and the best overlaps") {
+  const std::vector<Keyframe> keyframes{keyframe(0.1), keyframe(9), keyframe(0.5), keyframe(5), keyframe(0)};
+  const KeyframeWindow window = select_window(keyframes, 4);
+  CHECK(window.members == std::vector<int>{0, 2, 3, 4});
+  CHECK(window.fixed == 0);
+  CHECK(select_window(keyframes, 1).members == std::vector<int>{4});
+  CHECK(select_window({keyframe(0)}, 4).members == std::vector<int>{0});
+  // What does not overlap at all is of no use.
+  CHECK(select_window({keyframe(9), keyframe(5), keyframe(0)}, 4).members == std::vector<int>{1, 2});
+}
+
+TEST_CASE("the mapping order cycles through the window and visits the past") {
+  const KeyframeWindow window{{2, 5, 6}, 2};
+  std::mt19937 random(1), again(1);
+  const auto order = mapping_order(window, 7, 23, 2, random);
+  REQUIRE(order.size() == 23);
+  CHECK(order == mapping_order(window, 7, 23, 2, again));
+  CHECK(order[0] == 6);
+  CHECK(std::count(order.begin(), order.end(), 6) == 5);
+  for (int k : order) CHECK((k >= 0 && k < 7));
+  CHECK(std::count_if(order.begin(), order.end(), [](int k) { return k != 2 && k != 5 && k != 6; }) == 8);
+  CHECK(mapping_order({{0}, 0}, 1, 3, 2, random) == std::vector<int>{0, 0, 0});
+}

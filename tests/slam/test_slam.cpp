@@ -1,0 +1,93 @@
+#include <doctest/doctest.h>
+
+#include <cstdlib>
+#include <stdexcept>
+
+#include "engine/eval/trajectory_metrics.h"
+#include "engine/io/frame_stream.h"
+#include "engine/slam/slam.h"
+#include "engine/synth/synthetic_dataset.h"
+
+using namespace surefield;
+
+namespace {
+
+EngineOptions options() {
+  const char* selector = std::getenv("SUREFIELD_DEVICE");
+  return {.device = selector ? selector : "", .validate = true};
+}
+
+SlamSettings quick() {
+  SlamSettings settings;
+  settings.depth_max = 10;
+  settings.first_iterations = 40;
+  settings.mapping_iterations = 10;
+  settings.first_tracking_iterations = 25;
+  settings.keyframes.interval = 3;
+  return settings;
+}
+
+struct Run {
+  Trajectory trajectory;
+  GaussianCloud map;
+  std::vector<FrameReport> reports;
+  Trajectory truth;
+};
+
+Run run(int frames, const SlamSettings& settings) {
+  const SyntheticDataset dataset({.width = 96, .height = 72, .frames = frames});
+  FrameStream stream(dataset, {});
+  Slam slam(settings, stream.intrinsics(), options());
+  while (const auto frame = stream.next()) slam.feed(*frame);
+  CHECK(slam.engine_report().validation_messages.empty());
+  CHECK(slam.keyframes().size() == static_cast<std::size_t>((frames + 2) / 3));
+  return {slam.trajectory(), slam.map(), slam.reports(), *dataset.ground_truth()};
+}
+
+}  // namespace
+
+TEST_CASE("SLAM follows the synthetic room, and the same run gives the same bits") {
+  const Run first = run(7, quick());
+  REQUIRE(first.trajectory.size() == 7);
+  CHECK(evaluate_trajectory(first.trajectory, first.truth).ate.rmse < 0.01);
+  CHECK(first.reports[0].keyframe);
+  CHECK(first.reports[3].keyframe);
+  CHECK(first.reports[3].mapping_iterations == 10);
+  CHECK_FALSE(first.reports[4].keyframe);
+  for (const FrameReport& report : first.reports) CHECK_FALSE(report.lost);
+  for (float logit : first.map.opacity_logits) REQUIRE(std::isfinite(logit));
+
+  const Run second = run(7, quick());
+  for (std::size_t i = 0; i < 7; ++i)
+    CHECK(first.trajectory[i].camera_to_world.matrix() == second.trajectory[i].camera_to_world.matrix());
+  CHECK(first.map.means == second.map.means);
+  CHECK(first.map.sh == second.map.sh);
+}
+
+TEST_CASE("a frame that shows something else is reported as lost after re-tries, and the run goes on") {
+  const SyntheticDataset dataset({.width = 96, .height = 72, .frames = 6});
+  Slam slam(quick(), dataset.intrinsics(), options());
+  for (int i = 0; i < 3; ++i) slam.feed(*dataset.load(i).frame);
+  Frame covered = *dataset.load(3).frame;
+  covered.depth.setTo(0.3f);
+  covered.colour.setTo(cv::Scalar(255, 0, 255));
+  const FrameReport report = slam.feed(covered);
+  CHECK(report.lost);
+  CHECK(report.retries == 2);
+  CHECK_FALSE(report.keyframe);
+  CHECK(slam.trajectory().size() == 4);
+  CHECK_FALSE(slam.feed(*dataset.load(4).frame).lost);
+}
+
+TEST_CASE("frames of the wrong size and a first frame without depth are refused and change nothing") {
+  const SyntheticDataset dataset({.width = 96, .height = 72, .frames = 2});
+  Slam slam(quick(), dataset.intrinsics(), options());
+  Frame blind = *dataset.load(0).frame;
+  blind.depth.setTo(0);
+  CHECK_THROWS_AS(slam.feed(blind), std::invalid_argument);
+  Frame small = resize_frame(*dataset.load(0).frame, 0.5);
+  CHECK_THROWS_AS(slam.feed(small), std::invalid_argument);
+  CHECK(slam.trajectory().empty());
+  slam.feed(*dataset.load(0).frame);
+  CHECK(slam.trajectory().size() == 1);
+}
