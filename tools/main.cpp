@@ -18,25 +18,41 @@ constexpr const char* kDescription =
 constexpr const char* kExitCodes =
     "Exit codes: 0 success, 2 wrong use or input, 3 device error, 130 interrupted, 1 any other error.";
 
-}  // namespace
-
-int main(int argc, char** argv) {
-  CLI::App program(kDescription, "surefield");
+/// Adds everything that the command line may hold; parsing stores in `action` what it asks for.
+void add_commands(CLI::App& program, surefield::Action& action) {
   program.footer(kExitCodes);
   program.set_version_flag(
       "--version", std::string("surefield ") + surefield::kVersion + " (" + surefield::kGitCommit + ")");
   program.require_subcommand(1);
-  surefield::Action action;
   surefield::add_run(program, action);
   surefield::add_eval(program, action);
   surefield::add_render(program, action);
+  surefield::add_bench(program, action);
   surefield::add_devices(program, action);
+}
+
+/// What is wrong with the command line and where to look; `first` is its first argument, or empty.
+std::string explain(const CLI::App& program, const std::string& first, const CLI::ParseError& error) {
+  if (first.empty() || first.starts_with("-")) return std::string(error.what()) + "; see surefield --help";
+  const auto is_first = [&](const CLI::App* command) { return command->get_name() == first; };
+  if (!program.get_subcommands(is_first).empty()) {
+    return std::string(error.what()) + "; see surefield " + first + " --help";
+  }
+  return "there is no subcommand " + first + "; see surefield --help";
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App program(kDescription, "surefield");
+  surefield::Action action;
+  add_commands(program, action);
   try {
     program.parse(argc, argv);
   } catch (const CLI::Success& help_or_version) {
     return program.exit(help_or_version);
   } catch (const CLI::ParseError& error) {
-    surefield::print_error(std::string(error.what()) + "; see surefield --help");
+    surefield::print_error(explain(program, argc > 1 ? argv[1] : "", error));
     return surefield::kWrongInput;
   }
   return surefield::run_action(action);

@@ -1,0 +1,57 @@
+// The configurations that the program carries inside it.
+#include <sstream>
+
+#include "engine/io/files.h"
+#include "engine/slam/settings.h"
+#include "tests/io/support.h"
+#include "tools/build_info.h"
+#include "tools/run_configuration.h"
+
+using namespace surefield;
+
+TEST_CASE("base.yaml documents exactly the keys of the program with their defaults") {
+  const std::string file = read_file(SUREFIELD_SOURCE_DIR "/configs/base.yaml");
+  CHECK(built_in_configs().at("base.yaml") == file);
+  SlamSettings settings;
+  ConfigSchema schema;
+  settings.bind(schema);
+  // After the heading, which ends with an empty line, the file is what the program itself writes to
+  // config.yaml.
+  std::istringstream written(file.substr(file.find("\n\n") + 2)), expected(schema.dump());
+  std::string written_line, expected_line;
+  while (std::getline(expected, expected_line)) {
+    std::getline(written, written_line);
+    INFO("copy the config.yaml of `surefield run --config base.yaml` below the heading of configs/base.yaml");
+    REQUIRE(written_line == expected_line);
+  }
+  CHECK_FALSE(std::getline(written, written_line));
+}
+
+TEST_CASE("every built-in configuration can be read and names only what differs from its base") {
+  for (const auto& [name, text] : built_in_configs()) {
+    CAPTURE(name);
+    SlamSettings settings;
+    ConfigSchema schema;
+    settings.bind(schema);
+    const std::string defaults = schema.dump();
+    CHECK_NOTHROW(schema.load_built_in(name, built_in_configs()));
+    if (name == "replica.yaml") CHECK(schema.dump() != defaults);
+  }
+}
+
+TEST_CASE("a run takes the configuration of its format, then the user's values") {
+  const auto effective = [](RunOptions options, const std::string& format) {
+    SlamSettings settings;
+    load_settings(settings, options, format);
+    return settings;
+  };
+  CHECK(effective({}, "replica").keyframes.interval == 30);
+  CHECK(effective({}, "replica").tracking.iterations == 15);
+  CHECK(effective({}, "tum").tracking.iterations == 25);
+  CHECK(effective({}, "unheard of").tracking.iterations == 25);
+  CHECK(effective({.config = "replica.yaml"}, "tum").keyframes.interval == 30);
+  const SlamSettings own = effective({.assignments = {"tracking.iterations=7", "seed=5"}}, "replica");
+  CHECK(own.tracking.iterations == 7);
+  CHECK(own.seed == 5);
+  CHECK(own.keyframes.interval == 30);
+}

@@ -1,0 +1,69 @@
+#include <cmath>
+
+#include "engine/io/trajectory.h"
+#include "tests/tools/support.h"
+
+using namespace surefield;
+using namespace surefield::test;
+
+namespace {
+
+/// The corners of a square in the plane z = 0 with one second between them, alternately raised by `height`.
+Trajectory square(double height) {
+  Trajectory trajectory;
+  for (int i = 0; i < 4; ++i) {
+    StampedPose pose;
+    pose.timestamp = i;
+    const double x = i == 0 || i == 3 ? -1 : 1, y = i < 2 ? -1 : 1, z = i % 2 == 0 ? height : -height;
+    pose.camera_to_world.translation() = Eigen::Vector3d(x, y, z);
+    trajectory.push_back(pose);
+  }
+  return trajectory;
+}
+
+/// The same seen from another world, as after a rotation and a move of the origin.
+Trajectory moved(Trajectory trajectory) {
+  Eigen::Isometry3d motion = Eigen::Isometry3d::Identity();
+  motion.translate(Eigen::Vector3d(3, -2, 5)).rotate(Eigen::AngleAxisd(0.8, Eigen::Vector3d::UnitY()));
+  for (StampedPose& pose : trajectory) pose.camera_to_world = motion * pose.camera_to_world;
+  return trajectory;
+}
+
+}  // namespace
+
+TEST_CASE("eval measures a known error, wherever the trajectory's world lies") {
+  const TemporaryFolder folder;
+  write_trajectory(folder / "estimate.txt", moved(square(0.05)));
+  write_trajectory(folder / "truth.txt", square(0));
+  const Outcome outcome =
+      surefield_command({"eval", "--trajectory", folder / "estimate.txt", "--ground-truth",
+                         folder / "truth.txt", "--json", folder / "errors.json"},
+                        folder.path());
+  CHECK(outcome.code == 0);
+  CHECK(contains(outcome.out, "ATE RMSE         5.000 cm"));
+  const nlohmann::json json = read_json(folder / "errors.json");
+  CHECK(json["schema"] == "surefield-trajectory");
+  CHECK(json["version"] == 1);
+  CHECK(json["pairs"] == 4);
+  for (const char* key : {"ate_rmse_m", "ate_mean_m", "ate_median_m", "ate_max_m"}) {
+    CHECK(json[key].get<double>() == doctest::Approx(0.05).epsilon(1e-6));
+  }
+  // Every step climbs or descends by 0.1 m that the truth does not have.
+  CHECK(json["rpe_translation_rmse_m"].get<double>() == doctest::Approx(0.1).epsilon(1e-6));
+  CHECK(json["rpe_rotation_rmse_rad"].get<double>() < 1e-6);
+}
+
+TEST_CASE("eval names what it cannot compare") {
+  const TemporaryFolder folder;
+  write_trajectory(folder / "estimate.txt", square(0));
+  write_trajectory(folder / "one.txt", {square(0).front()});
+  const auto message = [&](const std::string& truth) {
+    const Outcome outcome = surefield_command(
+        {"eval", "--trajectory", folder / "estimate.txt", "--ground-truth", truth}, folder.path());
+    CHECK(outcome.code == 2);
+    return outcome.err;
+  };
+  CHECK(contains(message(folder / "one.txt"), "surefield: error: "));
+  CHECK(contains(message("/no/such"), "/no/such: no such file"));
+  CHECK(contains(message(folder.path()), "no known dataset layout"));
+}
