@@ -152,6 +152,26 @@ RunRecord start_record(const RunOptions& options, const Dataset& dataset, const 
   return record;
 }
 
+/// Feeds the stream to its end, or to an interruption or an error, which is returned; `record` learns how it
+/// went.
+std::exception_ptr feed_stream(RunRecord& record, FrameStream& stream, Slam& slam, spdlog::logger& log,
+                               bool quiet) {
+  std::exception_ptr failure;
+  const Clock::time_point start = Clock::now();
+  Feeder feeder(stream, slam, log, quiet);
+  try {
+    feeder.feed_all();
+  } catch (...) {
+    failure = std::current_exception();
+    record.error = describe_current_exception();
+    log.error(record.error);
+  }
+  record.seconds = seconds_since(start);
+  record.skipped = feeder.skipped();
+  record.end = failure ? RunEnd::Failed : interrupted() ? RunEnd::Interrupted : RunEnd::Completed;
+  return failure;
+}
+
 /// Adds what SLAM and the ground truth say about a run that has ended.
 void complete_record(RunRecord& record, const Slam& slam, const Dataset& dataset) {
   record.frames = slam.reports();
@@ -184,12 +204,17 @@ void report(Results& results, const RunRecord& record, bool quiet) {
   std::fflush(stdout);
 }
 
-void log_start(spdlog::logger& log, const RunRecord& record, const Dataset& dataset, const Slam& slam) {
+/// Tells the log what runs on what, and unless `quiet` the user what to know about the dataset.
+void announce(spdlog::logger& log, const RunRecord& record, const Dataset& dataset, const Slam& slam,
+              bool quiet) {
   const EngineReport engine = slam.engine_report();
   log.info("surefield {} ({}) on {}, {}", kVersion, kGitCommit, engine.device, engine.driver);
   log.info("{} ({}): {} frames of {} x {}", record.dataset, record.format, record.selected,
            record.intrinsics.width, record.intrinsics.height);
-  for (const std::string& warning : dataset.warnings()) log.warn(warning);
+  for (const std::string& warning : dataset.warnings()) {
+    log.warn(warning);
+    if (!quiet) fmt::print(stderr, "surefield: warning: {}\n", warning);
+  }
 }
 
 }  // namespace
@@ -204,26 +229,12 @@ int run_session(const RunOptions& options) {
   Results results(options.out);
   write_text(results.folder() / "config.yaml", effective);
 
-  const Clock::time_point setup_start = Clock::now();
-  Slam slam(settings, stream.intrinsics(), options.engine);
-  record.setup_seconds = seconds_since(setup_start);
-  log_start(results.log(), record, *dataset, slam);
-
-  std::exception_ptr failure;
   const Clock::time_point start = Clock::now();
-  {
-    Feeder feeder(stream, slam, results.log(), options.quiet);
-    try {
-      feeder.feed_all();
-    } catch (...) {
-      failure = std::current_exception();
-      record.error = describe_current_exception();
-      results.log().error(record.error);
-    }
-    record.skipped = feeder.skipped();
-  }
-  record.seconds = seconds_since(start);
-  record.end = failure ? RunEnd::Failed : interrupted() ? RunEnd::Interrupted : RunEnd::Completed;
+  Slam slam(settings, stream.intrinsics(), options.engine);
+  record.setup_seconds = seconds_since(start);
+  announce(results.log(), record, *dataset, slam, options.quiet);
+
+  const std::exception_ptr failure = feed_stream(record, stream, slam, results.log(), options.quiet);
   complete_record(record, slam, *dataset);
   save_results(results, record, slam, *dataset);
   report(results, record, options.quiet);

@@ -28,7 +28,8 @@ TEST_CASE("base.yaml documents exactly the keys of the program with their defaul
 }
 
 TEST_CASE("every built-in configuration can be read and names only what differs from its base") {
-  for (const auto& [name, text] : built_in_configs()) {
+  for (const auto& entry : built_in_configs()) {
+    const std::string& name = entry.first;
     CAPTURE(name);
     SlamSettings settings;
     ConfigSchema schema;
