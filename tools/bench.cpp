@@ -53,15 +53,16 @@ void print(const SceneTimes& times) {
   fmt::print("\n{}: {} Gaussians ({} visible, {} instances), {} x {} pixels, {:.2f} M pairs\n", times.name,
              times.gaussians, times.status.visible, times.status.instances, times.size.width,
              times.size.height, static_cast<double>(times.pairs) * 1e-6);
-  fmt::print("  {:<32}{:>10}{:>10}{:>12}\n", "", "median ms", "least ms", "ns a pair");
+  fmt::print("  {:<32}{:>10}{:>10}{:>10}{:>12}\n", "", "median ms", "least ms", "CPU ms", "ns a pair");
   for (const auto& [name, step] : steps_of(times)) {
-    fmt::print("  {:<32}{:>10.3f}{:>10.3f}\n", name, step->milliseconds.median(), step->milliseconds.least());
+    fmt::print("  {:<32}{:>10.3f}{:>10.3f}{:>10.3f}\n", name, step->milliseconds.median(),
+               step->milliseconds.least(), step->cpu_milliseconds.median());
     for (const PassSamples& pass : step->passes) {
       const std::string label =
           pass.dispatches > 1 ? fmt::format("{} x {}", pass.pass, pass.dispatches) : pass.pass;
       fmt::print("    {:<30}{:>10.3f}{:>10.3f}", label, pass.milliseconds.median(),
                  pass.milliseconds.least());
-      if (pass.pass.starts_with("blend_")) fmt::print("{:>12.3f}", ns_per_pair(times, *step));
+      if (pass.pass.starts_with("blend_")) fmt::print("{:>22.3f}", ns_per_pair(times, *step));
       fmt::print("\n");
     }
   }
@@ -76,6 +77,8 @@ json to_json(const StepSamples& step, double ns) {
                       {"ms_least", pass.milliseconds.least()}});
   return {{"ms_median", step.milliseconds.median()},
           {"ms_least", step.milliseconds.least()},
+          {"cpu_ms_median", step.cpu_milliseconds.median()},
+          {"cpu_ms_least", step.cpu_milliseconds.least()},
           {"blend_ms_median", step.blend_milliseconds},
           {"ns_per_pair", ns},
           {"passes", passes}};
@@ -124,7 +127,7 @@ std::vector<BenchScene> scenes_of(const BenchOptions& options) {
 int run(const BenchOptions& options) {
   gpu::Device device({.selector = options.device});
   const TileShape shape = tile_shape(device, options.tile);
-  const PeakRates peak = measure_peak(device, options.repeat);
+  const PeakRates peak = measure_peak(device);
   fmt::print("{}, {}; a subgroup of {} works {} x {} pixels\n", device.report().name, device.report().driver,
              shape.lanes, shape.width, shape.height);
   fmt::print("at best {:.1f} GFLOP/s of multiply-adds, {:.2f} G exponentials/s\n", peak.gflops,

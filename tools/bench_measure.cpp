@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <ctime>
 #include <functional>
 #include <string_view>
 
@@ -16,11 +17,23 @@ namespace {
 
 constexpr int kWarmUp = 2;
 
-/// Submits what has been recorded, `since` when recording began, and adds its times.
-void submit(gpu::Recorder& recorder, std::chrono::steady_clock::time_point since, StepSamples* step) {
-  const std::vector<gpu::PassTime> times = recorder.submit();
-  const std::chrono::duration<double, std::milli> wall = std::chrono::steady_clock::now() - since;
-  step->milliseconds.add(wall.count());
+/// Time since it was made.
+class Stopwatch {
+ public:
+  double milliseconds() const {
+    return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start_).count();
+  }
+  double cpu_milliseconds() const {
+    return 1e3 * static_cast<double>(std::clock() - cpu_start_) / CLOCKS_PER_SEC;
+  }
+
+ private:
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+  std::clock_t cpu_start_ = std::clock();
+};
+
+/// Adds the times of the dispatches of one step.
+void add_passes(const std::vector<gpu::PassTime>& times, StepSamples* step) {
   std::map<std::string_view, double> sums;
   for (const gpu::PassTime& time : times) sums[time.pass] += time.milliseconds;
   const bool first = step->passes.empty();
@@ -75,7 +88,8 @@ class SceneBench {
 
   void measure(SceneTimes* times) {
     time(&times->forward, [&] { rasteriser_.record_forward(recorder_, map_, view(), Outputs::ColourDepth); });
-    time(&times->backward_pose, [&] { rasteriser_.record_backward_pose(recorder_, map_, view()); });
+    time(&times->backward_pose,
+         [&] { rasteriser_.record_backward_pose(recorder_, map_, view(), Outputs::ColourDepth); });
     time(&times->forward_all, [&] { rasteriser_.record_forward(recorder_, map_, view(), Outputs::All); });
     time(&times->backward, [&] { rasteriser_.record_backward(recorder_, map_, view(), 0.1f); });
   }
@@ -87,9 +101,12 @@ class SceneBench {
   View view() const { return {size_, camera_, depth_}; }
 
   void time(StepSamples* step, const std::function<void()>& record) {
-    const auto start = std::chrono::steady_clock::now();
+    const Stopwatch watch;
     record();
-    submit(recorder_, start, step);
+    const std::vector<gpu::PassTime> times = recorder_.submit();
+    step->milliseconds.add(watch.milliseconds());
+    step->cpu_milliseconds.add(watch.cpu_milliseconds());
+    add_passes(times, step);
   }
 
   Rasteriser rasteriser_;
@@ -106,20 +123,20 @@ void find_blending(StepSamples* step) {
 }
 
 /// The best rate of one kernel, in operations per nanosecond.
-double peak_rate(gpu::Device& device, bool exponentials, int repeat) {
+double peak_rate(gpu::Device& device, bool exponentials) {
   constexpr uint32_t kRounds = 4096, kChains = 16, kGroups = 64;
+  constexpr int kRepeat = 20;
   const uint32_t lanes = device.limits().subgroup_size;
   const gpu::Pass<passes::measure_peak> pass(device, lanes,
                                              {.EXPONENTIALS = exponentials ? 1u : 0u, .ROUNDS = kRounds});
   gpu::Array<float> results(device, "results", uint64_t{kGroups} * lanes);
   gpu::Recorder recorder(device);
   double best = 0;
-  for (int i = 0; i < repeat + kWarmUp; ++i) {
-    const auto start = std::chrono::steady_clock::now();
+  for (int i = 0; i < kRepeat + kWarmUp; ++i) {
+    const Stopwatch watch;
     recorder.dispatch(pass, kGroups, {.results = results}, {.factor = 0.999f, .offset = 0.001f});
     recorder.submit();
-    const std::chrono::duration<double, std::nano> wall = std::chrono::steady_clock::now() - start;
-    best = std::max(best, double{kRounds} * kChains * kGroups * lanes / wall.count());
+    best = std::max(best, double{kRounds} * kChains * kGroups * lanes / (1e6 * watch.milliseconds()));
   }
   return best;
 }
@@ -149,9 +166,8 @@ SceneTimes measure_scene(gpu::Device& device, const TileShape& shape, const Benc
   return times;
 }
 
-PeakRates measure_peak(gpu::Device& device, int repeat) {
-  return {.gflops = 2 * peak_rate(device, false, repeat),
-          .exponentials_per_ns = peak_rate(device, true, repeat)};
+PeakRates measure_peak(gpu::Device& device) {
+  return {.gflops = 2 * peak_rate(device, false), .exponentials_per_ns = peak_rate(device, true)};
 }
 
 }  // namespace surefield

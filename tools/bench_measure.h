@@ -30,7 +30,9 @@ struct PassSamples {
 
 /// One step of the renderer, submitted by itself.
 struct StepSamples {
-  Samples milliseconds;             ///< wall clock, recording and submission included
+  Samples milliseconds;      ///< wall clock, recording and submission included
+  Samples cpu_milliseconds;  ///< processor time of all threads: on a software device, unlike the clock,
+                             ///< it hardly depends on what else the machine does
   std::vector<PassSamples> passes;  ///< in the order of their first dispatch
   double blend_milliseconds = 0;    ///< median of the pass that visits the pixels
 };
@@ -57,7 +59,7 @@ struct PeakRates {
   double exponentials_per_ns = 0;
 };
 
-/// The best of `repeat` measurements.
-PeakRates measure_peak(gpu::Device& device, int repeat);
+/// The best of several measurements.
+PeakRates measure_peak(gpu::Device& device);
 
 }  // namespace surefield

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 
@@ -16,8 +17,9 @@ namespace surefield {
 
 namespace {
 
-constexpr double kFocalPerWidth = 0.85;    // a horizontal field of view of about 61 degrees
-constexpr double kSecondsAround = 2;       // the map's views: so long before and after the camera's
+constexpr double kFocalPerWidth = 0.85;  // a horizontal field of view of about 61 degrees
+constexpr double kSecondsAround = 2;     // the map's views: so long before and after the camera's
+constexpr int kViews = 9;
 constexpr double kVisibleFraction = 0.65;  // of such a map's Gaussians lie in the camera's view
 
 struct SceneSize {
@@ -43,14 +45,11 @@ Eigen::Vector3d ray(const Intrinsics& k, const Pose& to_world, double u, double 
   return to_world.linear() * Eigen::Vector3d((u - k.cx) / k.fx, (v - k.cy) / k.fy, 1);
 }
 
-/// Puts Gaussian `i` where a random ray of a random view near the camera's meets the room; `spacing` in
-/// pixels.
-void place(const SyntheticRoom& room, const Intrinsics& k, double spacing, Random& random, std::size_t i,
-           GaussianCloud* cloud) {
-  const Pose view = room.world_to_camera(random.uniform(-kSecondsAround, kSecondsAround)).inverse();
-  const Eigen::Vector3d origin = view.translation();
-  const Eigen::Vector3d direction =
-      ray(k, view, random.uniform(-0.5, k.width - 0.5), random.uniform(-0.5, k.height - 0.5));
+/// Puts Gaussian `i` where the ray of `pixel` in the view `to_world` meets the room; `spacing` in pixels.
+void place(const SyntheticRoom& room, const Intrinsics& k, const Pose& to_world, const Eigen::Vector2d& pixel,
+           double spacing, Random& random, std::size_t i, GaussianCloud* cloud) {
+  const Eigen::Vector3d origin = to_world.translation();
+  const Eigen::Vector3d direction = ray(k, to_world, pixel.x(), pixel.y());
   const SurfacePoint point = room.cast(origin, direction);
   cloud->means[i] = (origin + point.distance * direction).cast<float>();
 
@@ -70,6 +69,33 @@ void place(const SyntheticRoom& room, const Intrinsics& k, double spacing, Rando
   const Eigen::Vector3f colour = texture(*point.material, point.uv);
   constexpr float kSh0 = 0.28209479f;
   for (std::size_t c = 0; c < 3; ++c) cloud->sh[3 * i + c] = (colour[static_cast<int>(c)] - 0.5f) / kSh0;
+}
+
+/// Random pixels, row by row.
+std::vector<Eigen::Vector2d> scan_pixels(const Intrinsics& k, std::size_t count, Random& random) {
+  std::vector<Eigen::Vector2d> pixels(count);
+  for (Eigen::Vector2d& pixel : pixels)
+    pixel = {random.uniform(-0.5, k.width - 0.5), random.uniform(-0.5, k.height - 0.5)};
+  std::sort(pixels.begin(), pixels.end(), [](const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
+    return std::pair(std::floor(a.y()), a.x()) < std::pair(std::floor(b.y()), b.x());
+  });
+  return pixels;
+}
+
+/// Like a map that grew keyframe by keyframe, each adding its pixels row by row: neighbours in the map are
+/// often neighbours in the image.
+void fill_map(const SyntheticRoom& room, const Intrinsics& k, GaussianCloud* cloud) {
+  const double pixels = static_cast<double>(k.width) * k.height;
+  const double spacing = std::sqrt(pixels / (kVisibleFraction * static_cast<double>(cloud->size())));
+  Random random;
+  for (int view = 0; view < kViews; ++view) {
+    const double seconds = kSecondsAround * (2.0 * view / (kViews - 1) - 1);
+    const Pose to_world = room.world_to_camera(seconds).inverse();
+    const std::size_t begin = cloud->size() * view / kViews, end = cloud->size() * (view + 1) / kViews;
+    const auto targets = scan_pixels(k, end - begin, random);
+    for (std::size_t i = begin; i < end; ++i)
+      place(room, k, to_world, targets[i - begin], spacing, random, i, cloud);
+  }
 }
 
 }  // namespace
@@ -104,11 +130,8 @@ BenchScene make_bench_scene(std::string_view name) {
       scene.sensor_depth.push_back(
           static_cast<float>(room.cast(to_world.translation(), ray(k, to_world, u, v)).distance));
 
-  const double pixels = static_cast<double>(k.width) * k.height;
-  const double spacing = std::sqrt(pixels / (kVisibleFraction * size->gaussians));
-  Random random;
   scene.cloud.resize(static_cast<std::size_t>(size->gaussians));
-  for (std::size_t i = 0; i < scene.cloud.size(); ++i) place(room, k, spacing, random, i, &scene.cloud);
+  fill_map(room, k, &scene.cloud);
   return scene;
 }
 

@@ -73,17 +73,21 @@ Rasteriser::BackwardPasses& Rasteriser::backward_passes(int sh_degree) {
   auto& made = backward_passes_[sh_degree][pose_gradient_kind == PoseGradientKind::Full];
   if (made) return *made;
   const TileShape& s = lists.shape();
-  const uint32_t full = pose_gradient_kind == PoseGradientKind::Full ? 1 : 0;
-  const auto degree = static_cast<uint32_t>(sh_degree);
+  passes::blend_backward_pose::Constants constants{
+      .TILE_W = s.width,
+      .TILE_H = s.height,
+      .LANES = s.lanes,
+      .SH_DEGREE = static_cast<uint32_t>(sh_degree),
+      .FULL_POSE_GRADIENT = pose_gradient_kind == PoseGradientKind::Full ? 1u : 0u,
+      .WITH_GEOMETRY = 0};
+  auto all = constants;
+  all.WITH_GEOMETRY = 1;
   made.reset(new BackwardPasses{
+      {device_, s.lanes, constants},
+      {device_, s.lanes, all},
       {device_,
-       s.lanes,
-       {.TILE_W = s.width,
-        .TILE_H = s.height,
-        .LANES = s.lanes,
-        .SH_DEGREE = degree,
-        .FULL_POSE_GRADIENT = full}},
-      {device_, TileLists::kWorkgroup, {.SH_DEGREE = degree, .FULL_POSE_GRADIENT = full}}});
+       TileLists::kWorkgroup,
+       {.SH_DEGREE = constants.SH_DEGREE, .FULL_POSE_GRADIENT = constants.FULL_POSE_GRADIENT}}});
   return *made;
 }
 
@@ -154,10 +158,12 @@ void Rasteriser::record_backward(gpu::Recorder& recorder, GaussianMap& map, cons
       {.count = 0, .workgroup_size = TileLists::kWorkgroup, .subgroups = subgroups});
 }
 
-void Rasteriser::record_backward_pose(gpu::Recorder& recorder, const GaussianMap& map, const View& view) {
+void Rasteriser::record_backward_pose(gpu::Recorder& recorder, const GaussianMap& map, const View& view,
+                                      Outputs outputs) {
   const uint32_t tiles = lists.tiles_x(view.size) * lists.tiles_y(view.size);
   recorder.reserve(pose_partials_, tiles);
-  recorder.dispatch(backward_passes(map.sh_degree()).blend_pose, lists.tiles_x(view.size),
+  BackwardPasses& made = backward_passes(map.sh_degree());
+  recorder.dispatch(outputs == Outputs::All ? made.blend_pose_all : made.blend_pose, lists.tiles_x(view.size),
                     lists.tiles_y(view.size),
                     {.camera = view.camera,
                      .splats = lists.splats,

@@ -41,9 +41,10 @@ class Rasteriser {
   /// every visible Gaussian and of the pose. `isotropy_weight` adds that of w L_iso (paper eq. 17).
   void record_backward(gpu::Recorder& recorder, GaussianMap& map, const View& view, float isotropy_weight);
 
-  /// After record_forward(), with pixel_gradients filled: the gradient of the pose alone; nothing is written
-  /// per Gaussian.
-  void record_backward_pose(gpu::Recorder& recorder, const GaussianMap& map, const View& view);
+  /// After record_forward() of the same view and `outputs`, with pixel_gradients filled: the gradient of the
+  /// pose alone; nothing is written per Gaussian. Gradients of outputs that were not computed are left out.
+  void record_backward_pose(gpu::Recorder& recorder, const GaussianMap& map, const View& view,
+                            Outputs outputs = Outputs::All);
 
   /// Renders one camera and reads everything back. `sensor_depth` (metres, row-major) may be empty: no
   /// uncertainty.
@@ -76,6 +77,7 @@ class Rasteriser {
   gpu::Pass<passes::reduce_pose> reduce_pose_;
   struct BackwardPasses {
     gpu::Pass<passes::blend_backward_pose> blend_pose;
+    gpu::Pass<passes::blend_backward_pose> blend_pose_all;
     gpu::Pass<passes::project_backward> project;
   };
   std::unique_ptr<BackwardPasses> backward_passes_[4][2];  ///< per SH degree and kind, made when first needed

@@ -1,4 +1,5 @@
-// How a subgroup works a tile. Needs the constants TILE_W, TILE_H and LANES (= the subgroup and workgroup size).
+// How a subgroup works a tile. Needs splat_types.h, projection.glsl and the constants TILE_W, TILE_H and LANES (= the
+// subgroup and workgroup size).
 //
 // A tile has TILE_W x TILE_H pixels and one subgroup; each lane owns PIXELS of them, COLUMNS wide and ROWS high:
 // pixel (column, row) of a lane lies at lane_origin() + (column * LANES, row * ROW_STEP). So all pixels of a lane's
@@ -19,29 +20,58 @@ uvec2 lane_pixel(uint column, uint row) {
 }
 
 /// The Gaussians of a tile are taken in batches of LANES, a lane loading one each; they are then handed round by
-/// shuffles, GROUP at a time. Lane l loads number batch_order(l) of the batch, so that the sums of a group, reduced
-/// over the subgroup by reduce_group(), end up in the very lanes that loaded those Gaussians.
-const uint GROUP = 4;
-const uint GROUPS = LANES / GROUP;
+/// shuffles, GROUP at a time: GROUP bodies are unrolled, few enough to stay in a CPU's instruction cache.
+const uint GROUP = 2;
 
-uint batch_order(uint lane) {
-  return (lane % GROUPS) * GROUP + lane / GROUPS;
+/// A Gaussian as a lane loads it for all pixels of the tile: what does not need the pixel is done once.
+struct Stamp {
+  vec2 centre;
+  vec3 form;            // log2 of exp(-d^T conic d / 2), by dx dx, dx dy and dy dy
+  float log_opacity;    // log2
+  vec3 colour;
+  float depth;
+};
+
+const Stamp NO_STAMP = Stamp(vec2(0), vec3(0), -1000.0, vec3(0), 0.0);
+
+Stamp stamp_of(Splat s) {
+  const float LOG2_E = 1.4426950408889634;
+  return Stamp(s.centre, -LOG2_E * vec3(0.5 * s.conic.x, s.conic.y, 0.5 * s.conic.z), log2(s.opacity), s.colour,
+               s.depth);
 }
 
-/// The lane that loaded Gaussian `member` of group `group`.
-uint lane_of(uint group, uint member) {
-  return member * GROUPS + group;
+/// The stamp that `lane` has loaded.
+Stamp stamp_from(Stamp my, uint lane) {
+  return Stamp(subgroupShuffle(my.centre, lane), subgroupShuffle(my.form, lane),
+               subgroupShuffle(my.log_opacity, lane), subgroupShuffle(my.colour, lane),
+               subgroupShuffle(my.depth, lane));
 }
 
-/// Sums a value of each of the four members of a group over the subgroup: lane l gets the total of member l / GROUPS.
-/// A transposed butterfly: the first two steps halve the number of members that a lane works for.
+/// One Gaussian in front of one pixel. A pixel that has stopped keeps a transmittance of 0; masks are arithmetic, since
+/// a branch would not save work on every device.
+struct Layer {
+  float raw;      // opacity times the Gaussian, before the clamp
+  float left;     // transmittance behind, if the pixel does not stop here
+  float weight;   // alpha times the transmittance in front; 0 from the stop on
+  bool stops;
+};
+
+Layer layer_of(float log_alpha, float transmittance) {
+  Layer l;
+  l.raw = exp2(log_alpha);
+  const float alpha = l.raw < ALPHA_MIN ? 0.0 : min(ALPHA_MAX, l.raw);
+  const float weight = alpha * transmittance;
+  l.left = transmittance - weight;
+  l.stops = l.left < TRANSMITTANCE_MIN;
+  l.weight = l.stops ? 0.0 : weight;
+  return l;
+}
+
+/// Sums a value of each of the two members of a group over the subgroup: even lanes get the total of the first, odd ones
+/// that of the second.
 float reduce_group(float a[GROUP]) {
-  const uint lane = gl_SubgroupInvocationID;
-  const bool high = (lane & (LANES / 2)) != 0;
-  const float first = (high ? a[2] : a[0]) + subgroupShuffleXor(high ? a[0] : a[2], LANES / 2);
-  const float second = (high ? a[3] : a[1]) + subgroupShuffleXor(high ? a[1] : a[3], LANES / 2);
-  const bool odd = (lane & (LANES / 4)) != 0;
-  float total = (odd ? second : first) + subgroupShuffleXor(odd ? first : second, LANES / 4);
-  [[unroll]] for (uint step = GROUPS / 2; step > 0; step /= 2) total += subgroupShuffleXor(total, step);
+  const bool odd = (gl_SubgroupInvocationID & 1) != 0;
+  float total = (odd ? a[1] : a[0]) + subgroupShuffleXor(odd ? a[0] : a[1], 1);
+  [[unroll]] for (uint step = 2; step < LANES; step *= 2) total += subgroupShuffleXor(total, step);
   return total;
 }

@@ -4,6 +4,7 @@
 #include "quaternion.glsl"
 #include "projection.glsl"
 #include "tile_pixels.glsl"
+const uint WITH_GEOMETRY = 1;
 #include "backward_pixels.glsl"
 
 // One subgroup per tile, as in blend_forward. Each lane sums the gradients of the Gaussian at hand over its own pixels;
@@ -17,12 +18,12 @@ void main() {
   load_pixels(c, params.background);
 
   for (uint batch = range.x; batch < range.y; batch += LANES) {
-    const uint mine = batch + batch_order(gl_SubgroupInvocationID);
+    const uint mine = batch + gl_SubgroupInvocationID;
     uint slot = 0;
-    Splat my = Splat(vec2(0), vec3(0), 0.0, vec3(0), 0.0);
+    Stamp my = NO_STAMP;
     if (mine < range.y) {
       slot = instances[mine];
-      my = splats[instance_owners[slot]];
+      my = stamp_of(splats[instance_owners[slot]]);
     }
     const SplatGradient total = visit_batch(my);
     if (mine < range.y) instance_gradients[slot] = total;

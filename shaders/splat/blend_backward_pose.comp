@@ -21,14 +21,14 @@ void main() {
   PoseGradient pose = PoseGradient(vec3(0), vec3(0));
   const vec3 camera_centre = -(transpose(camera_rotation(c)) * c.translation);
   for (uint batch = range.x; batch < range.y; batch += LANES) {
-    const uint mine = batch + batch_order(gl_SubgroupInvocationID);
+    const uint mine = batch + gl_SubgroupInvocationID;
     uint id = 0;
     Splat my = Splat(vec2(0), vec3(0), 0.0, vec3(0), 1.0);
     if (mine < range.y) {
       id = instance_owners[instances[mine]];
       my = splats[id];
     }
-    const SplatGradient total = visit_batch(my);
+    const SplatGradient total = visit_batch(mine < range.y ? stamp_of(my) : NO_STAMP);
     if (mine < range.y) {
       const vec3 mean = means[id];
       const vec3 g_direction = direction_gradient(id, mean - camera_centre, mix(total.colour, vec3(0), equal(my.colour, vec3(0))));

@@ -6,8 +6,7 @@
 #include "tile_pixels.glsl"
 
 // One subgroup (= one workgroup) per tile; lib/tile_pixels.glsl says which lane owns which pixels. The tile's Gaussians
-// are visited near to far until no pixel lets light through. A pixel that has stopped keeps a transmittance of 0, and
-// masks are arithmetic: a branch would not save work on every device.
+// are visited near to far until no pixel lets light through.
 void main() {
   const CameraState c = camera[0];
   const uint tile = gl_WorkGroupID.y * ((c.width + TILE_W - 1) / TILE_W) + gl_WorkGroupID.x;
@@ -29,45 +28,36 @@ void main() {
 
   const vec2 origin = vec2(lane_origin());
   for (uint batch = range.x; batch < range.y; batch += LANES) {
-    const uint mine = batch + batch_order(gl_SubgroupInvocationID);
+    const uint mine = batch + gl_SubgroupInvocationID;
     uint my_id = 0;
-    Splat my = Splat(vec2(0), vec3(0), 0.0, vec3(0), 0.0);
+    Stamp my = NO_STAMP;
     if (mine < range.y) {
       my_id = instance_owners[instances[mine]];
-      my = splats[my_id];
+      my = stamp_of(splats[my_id]);
     }
-    for (uint group = 0; group < GROUPS; ++group) {
+    for (uint group = 0; group < LANES; group += GROUP) {
       [[unroll]] for (uint member = 0; member < GROUP; ++member) {
-        const uint lane = lane_of(group, member);
-        const vec2 d = origin - subgroupShuffle(my.centre, lane);
-        const vec3 conic = subgroupShuffle(my.conic, lane);
-        const float splat_opacity = subgroupShuffle(my.opacity, lane);
-        const vec3 splat_colour = subgroupShuffle(my.colour, lane);
-        const float splat_depth = subgroupShuffle(my.depth, lane);
-        const uint id = subgroupShuffle(my_id, lane);
+        const Stamp stamp = stamp_from(my, group + member);
+        const uint id = WITH_GEOMETRY == 1 ? subgroupShuffle(my_id, group + member) : 0;
+        const vec2 d = origin - stamp.centre;
         [[unroll]] for (uint column = 0; column < COLUMNS; ++column) {
           const float dx = d.x + float(column * LANES);
-          const float xx = -0.5 * conic.x * dx * dx, xy = -conic.y * dx;
+          const float along = stamp.form.x * dx * dx + stamp.log_opacity, across = stamp.form.y * dx;
           [[unroll]] for (uint row = 0; row < ROWS; ++row) {
             const uint k = row * COLUMNS + column;
             const float dy = d.y + float(row * ROW_STEP);
-            const float exponent = xx + dy * (xy - 0.5 * conic.z * dy);
-            float alpha = min(ALPHA_MAX, splat_opacity * exp(exponent));
-            alpha = alpha < ALPHA_MIN ? 0.0 : alpha;
             const float before = transmittance[k];
-            const float after = before - alpha * before;
-            const bool stops = after < TRANSMITTANCE_MIN;
-            const float weight = stops ? 0.0 : alpha * before;
-            transmittance[k] = stops ? 0.0 : after;
-            colour[k] += weight * splat_colour;
-            depth[k] += weight * splat_depth;
-            opacity[k] += weight;
+            const Layer l = layer_of(along + dy * (across + stamp.form.z * dy), before);
+            transmittance[k] = l.stops ? 0.0 : l.left;
+            colour[k] += l.weight * stamp.colour;
+            depth[k] += l.weight * stamp.depth;
+            opacity[k] += l.weight;
             if (WITH_GEOMETRY == 1) {
-              median[k] = before >= 0.5 && after < 0.5 ? splat_depth : median[k];
-              const float off = splat_depth - sensor[k];
-              uncertainty[k] += weight * off * off;
-              dominator[k] = weight > best[k] ? id : dominator[k];
-              best[k] = max(best[k], weight);
+              median[k] = before >= 0.5 && transmittance[k] < 0.5 ? stamp.depth : median[k];
+              const float off = stamp.depth - sensor[k];
+              uncertainty[k] += l.weight * off * off;
+              dominator[k] = l.weight > best[k] ? id : dominator[k];
+              best[k] = max(best[k], l.weight);
             }
           }
         }
