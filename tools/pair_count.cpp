@@ -49,15 +49,14 @@ uint64_t count_pairs(const TileLists& lists, const ImageSize& size) {
   const glsl::RenderStatus status = lists.read_status();
   const uint32_t tiles_x = lists.tiles_x(size), tiles = tiles_x * lists.tiles_y(size);
   const auto ranges = lists.tile_ranges.download(tiles);
-  const auto instances = lists.instances.download(status.instances);
-  const auto owners = lists.instance_owners.download(status.instances);
+  const auto gaussians = lists.tile_gaussians.download(status.instances);
   const auto splats = lists.splats.download(lists.splats.capacity());
   const TileShape& shape = lists.shape();
   uint64_t visited = 0;
   std::vector<glsl::Splat> list;
   for (uint32_t tile = 0; tile < tiles; ++tile) {
     list.clear();
-    for (uint32_t i = ranges[tile].x; i < ranges[tile].y; ++i) list.push_back(splats[owners[instances[i]]]);
+    for (uint32_t i = ranges[tile].x; i < ranges[tile].y; ++i) list.push_back(splats[gaussians[i]]);
     visited += count_visited(list, shape, size, tile % tiles_x * shape.width, tile / tiles_x * shape.height);
   }
   return visited * shape.width * shape.height;

@@ -28,7 +28,7 @@ TileLists::TileLists(gpu::Device& device, const TileShape& shape)
       instance_offsets(device, "instance offsets"),
       sorted_counts(device, "tile counts by depth"),
       instances(device, "instances"),
-      instance_owners(device, "instance owners"),
+      tile_gaussians(device, "Gaussians of tiles"),
       tile_ranges(device, "tile ranges"),
       status(device, "render status"),
       device_(device),
@@ -46,7 +46,8 @@ TileLists::TileLists(gpu::Device& device, const TileShape& shape)
       depth_keys_(device, "depth keys"),
       instance_total_(device, "instance total"),
       instance_count_(device, "instance count"),
-      tile_keys_(device, "tile keys") {
+      tile_keys_(device, "tile keys"),
+      instance_owners_(device, "instance owners") {
   reserve_instances(kFirstInstanceCapacity);
   status.upload(std::vector<glsl::RenderStatus>{{}});
 }
@@ -63,7 +64,8 @@ gpu::Pass<passes::project_splats>& TileLists::projection(int sh_degree) {
 void TileLists::reserve_instances(uint32_t capacity) {
   instance_capacity_ = std::max(instance_capacity_, capacity);
   instances.reserve(instance_capacity_);
-  instance_owners.reserve(instance_capacity_);
+  instance_owners_.reserve(instance_capacity_);
+  tile_gaussians.reserve(instance_capacity_);
   tile_keys_.reserve(instance_capacity_);
 }
 
@@ -132,7 +134,7 @@ void TileLists::record_instances(gpu::Recorder& recorder, const gpu::Array<glsl:
                               .instance_total = instance_total_,
                               .tile_keys = tile_keys_,
                               .instances = instances,
-                              .instance_owners = instance_owners,
+                              .instance_owners = instance_owners_,
                               .status = status,
                               .instance_count = instance_count_},
                              {.capacity = instance_capacity_});
@@ -141,9 +143,14 @@ void TileLists::record_instances(gpu::Recorder& recorder, const gpu::Array<glsl:
   recorder.fill(tile_ranges, tiles, 0);
   recorder.dispatch(prepare_, 1, {.element_count = instance_count_, .dispatch_args = dispatch_args},
                     {.workgroup_size = kWorkgroup, .slot = kInstanceArgs});
-  recorder.dispatch_indirect(
-      ranges_, dispatch_args, kInstanceArgs,
-      {.instance_count = instance_count_, .tile_keys = tile_keys_, .tile_ranges = tile_ranges}, {});
+  recorder.dispatch_indirect(ranges_, dispatch_args, kInstanceArgs,
+                             {.instance_count = instance_count_,
+                              .tile_keys = tile_keys_,
+                              .instances = instances,
+                              .instance_owners = instance_owners_,
+                              .tile_ranges = tile_ranges,
+                              .tile_gaussians = tile_gaussians},
+                             {});
 }
 
 glsl::RenderStatus TileLists::read_status() const {

@@ -67,7 +67,7 @@ class TileLists {
   gpu::Array<glsl::uint> instance_offsets;  ///< per visible Gaussian: its first instance
   gpu::Array<glsl::uint> sorted_counts;     ///< per visible Gaussian: its number of instances
   gpu::Array<glsl::uint> instances;         ///< sorted by tile, near to far
-  gpu::Array<glsl::uint> instance_owners;   ///< per instance: its Gaussian's index in the map
+  gpu::Array<glsl::uint> tile_gaussians;    ///< in the same order: the instance's Gaussian's index in the map
   gpu::Array<glsl::uvec2> tile_ranges;      ///< per tile: begin and end in `instances`
   gpu::Array<glsl::RenderStatus> status;    ///< 1
   uint32_t instance_capacity() const { return instance_capacity_; }
@@ -100,6 +100,7 @@ class TileLists {
   gpu::Array<glsl::uint> instance_total_;
   gpu::Array<glsl::uint> instance_count_;
   gpu::Array<glsl::uint> tile_keys_;
+  gpu::Array<glsl::uint> instance_owners_;  ///< per instance, before sorting: its Gaussian's index in the map
 };
 
 }  // namespace surefield

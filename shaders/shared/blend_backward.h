@@ -8,7 +8,7 @@
   READ(0, CameraState, camera)               \
   READ(1, Splat, splats)                     \
   READ(2, uint, instances)                   \
-  READ(3, uint, instance_owners)             \
+  READ(3, uint, tile_gaussians)              \
   READ(4, uvec2, tile_ranges)                \
   READ(5, float, sensor_depth)               \
   READ(6, vec4, colour_opacity)              \

@@ -11,16 +11,15 @@
 #define PASS_BINDINGS(READ, WRITE, UPDATE)   \
   READ(0, CameraState, camera)               \
   READ(1, Splat, splats)                     \
-  READ(2, uint, instances)                   \
-  READ(3, uint, instance_owners)             \
-  READ(4, uvec2, tile_ranges)                \
-  READ(5, float, sensor_depth)               \
-  READ(6, vec4, colour_opacity)              \
-  READ(7, vec4, geometry)                    \
-  READ(8, PixelGradient, pixel_gradients)    \
-  READ(9, vec3, means)                       \
-  READ(10, vec3, log_scales)                 \
-  READ(11, vec4, rotations)                  \
-  READ(12, vec3, sh)                         \
-  WRITE(13, PoseGradient, pose_partials)
+  READ(2, uint, tile_gaussians)              \
+  READ(3, uvec2, tile_ranges)                \
+  READ(4, float, sensor_depth)               \
+  READ(5, vec4, colour_opacity)              \
+  READ(6, vec4, geometry)                    \
+  READ(7, PixelGradient, pixel_gradients)    \
+  READ(8, vec3, means)                       \
+  READ(9, vec3, log_scales)                  \
+  READ(10, vec4, rotations)                  \
+  READ(11, vec3, sh)                         \
+  WRITE(12, PoseGradient, pose_partials)
 #include "declare_pass.h"

@@ -9,11 +9,10 @@
 #define PASS_BINDINGS(READ, WRITE, UPDATE)                          \
   READ(0, CameraState, camera)                                      \
   READ(1, Splat, splats)                                            \
-  READ(2, uint, instances)                                          \
-  READ(3, uint, instance_owners)                                    \
-  READ(4, uvec2, tile_ranges)                                       \
-  READ(5, float, sensor_depth)                                      \
-  WRITE(6, vec4, colour_opacity)                                    \
-  WRITE(7, vec4, geometry) /* D_alpha, D_median, U, weight of the dominator */ \
-  WRITE(8, uint, dominators)
+  READ(2, uint, tile_gaussians)                                     \
+  READ(3, uvec2, tile_ranges)                                       \
+  READ(4, float, sensor_depth)                                      \
+  WRITE(5, vec4, colour_opacity)                                    \
+  WRITE(6, vec4, geometry) /* D_alpha, D_median, U, weight of the dominator */ \
+  WRITE(7, uint, dominators)
 #include "declare_pass.h"

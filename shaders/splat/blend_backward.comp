@@ -23,7 +23,7 @@ void main() {
     Stamp my = NO_STAMP;
     if (mine < range.y) {
       slot = instances[mine];
-      my = stamp_of(splats[instance_owners[slot]]);
+      my = stamp_of(splats[tile_gaussians[mine]]);
     }
     const SplatGradient total = visit_batch(my);
     if (mine < range.y) instance_gradients[slot] = total;

@@ -25,7 +25,7 @@ void main() {
     uint id = 0;
     Splat my = Splat(vec2(0), vec3(0), 0.0, vec3(0), 1.0);
     if (mine < range.y) {
-      id = instance_owners[instances[mine]];
+      id = tile_gaussians[mine];
       my = splats[id];
     }
     const SplatGradient total = visit_batch(mine < range.y ? stamp_of(my) : NO_STAMP);

@@ -32,7 +32,7 @@ void main() {
     uint my_id = 0;
     Stamp my = NO_STAMP;
     if (mine < range.y) {
-      my_id = instance_owners[instances[mine]];
+      my_id = tile_gaussians[mine];
       my = stamp_of(splats[my_id]);
     }
     for (uint group = 0; group < LANES; group += GROUP) {
