@@ -19,18 +19,18 @@ struct PixelUpstream {
 PixelUpstream upstream_of(uint at, vec3 background, out float total) {
   const PixelGradient g = pixel_gradients[at];
   const vec4 image = colour_opacity[at];
-  const vec4 geo = geometry[at];
+  const float rendered_depth = geometry[at].x;
   const float normalised = image.w > 0 ? g.depth_normalised / image.w : 0;
   PixelUpstream p;
   p.colour = g.colour;
   p.depth = g.depth + normalised;
-  p.constant = g.opacity - dot(g.colour, background) - (image.w > 0 ? normalised * geo.x / image.w : 0);
-  total = dot(p.colour, image.rgb - (1 - image.w) * background) + p.depth * geo.x + p.constant * image.w;
+  p.constant = g.opacity - dot(g.colour, background) - (image.w > 0 ? normalised * rendered_depth / image.w : 0);
+  total = dot(p.colour, image.rgb - (1 - image.w) * background) + p.depth * rendered_depth + p.constant * image.w;
   if (WITH_GEOMETRY == 1) {
     p.sensor = sensor_depth[at];
     p.median = g.depth_median;
     p.uncertainty = p.sensor > 0 ? g.uncertainty : 0;
-    total += p.uncertainty * geo.z;
+    total += p.uncertainty * geometry[at].z;
   }
   return p;
 }
