@@ -4,7 +4,7 @@
 #include <array>
 #include <bit>
 #include <cstdio>
-#include <filesystem>
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <sstream>
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <ctime>
 #include <functional>
+#include <map>
 #include <string_view>
 
 #include "engine/splat/rasteriser.h"
