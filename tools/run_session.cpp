@@ -86,7 +86,7 @@ class Feeder {
     while (!interrupted()) {
       const std::optional<Frame> frame = stream_.next();
       note_unreadable();
-      if (!frame) return;
+      if (!frame) return slam_.finish();
       feed(*frame);
     }
   }

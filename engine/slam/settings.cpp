@@ -18,8 +18,6 @@ void bind_tracking(ConfigSchema& schema, TrackingSettings& tracking) {
              "Adam's step of the rotation, radians");
   schema.add("tracking.rate_translation", &tracking.rate_translation, kRate,
              "Adam's step of the translation, metres");
-  schema.add("tracking.rate_decay", &tracking.rate_decay, Range{0.001, 1},
-             "steps shrink to this fraction of the rates by the last iteration");
   schema.add("tracking.weight_colour", &tracking.weight_colour, kWeight,
              "lambda_1, weight of the mean colour difference (colours are 0 to 1)");
   schema.add("tracking.weight_depth", &tracking.weight_depth, kWeight,
@@ -104,6 +102,8 @@ void SlamSettings::bind(ConfigSchema& schema) {
   bind_mapping(schema, mapping);
   schema.add("keyframes.interval", &keyframes.interval, Range{1, 100000},
              "every so many frames is a keyframe");
+  schema.add("keyframes.valid_below", &keyframes.valid_below, kFraction,
+             "also when a smaller fraction of the sensor's depth agrees with the map");
   schema.add(
       "keyframes.window", &keyframes.window, Range{1, 1000},
       "k, keyframes optimised together: the current, the most recent, and the k - 2 that overlap most");

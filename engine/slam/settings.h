@@ -7,9 +7,10 @@ namespace surefield {
 
 /// When a frame becomes a keyframe and which keyframes are optimised together (paper section 3.4).
 struct KeyframeSettings {
-  int interval = 15;       ///< every so many frames
-  int window = 4;          ///< k: current, most recent, and the k - 2 that overlap most
-  int past_keyframes = 2;  ///< random older keyframes among the steps, against forgetting
+  int interval = 15;         ///< every so many frames
+  double valid_below = 0.7;  ///< also when less than this fraction of the sensor's depth agrees with the map
+  int window = 4;            ///< k: current, most recent, and the k - 2 that overlap most
+  int past_keyframes = 2;    ///< random older keyframes among the steps, against forgetting
 };
 
 /// How new Gaussians are born (paper section 3.3).

@@ -4,6 +4,7 @@
 #include <deque>
 #include <map>
 #include <numeric>
+#include <optional>
 #include <random>
 #include <stdexcept>
 
@@ -14,6 +15,7 @@ namespace surefield {
 
 namespace {
 
+constexpr int kKeyframeRest = 3;           // frames between keyframes that are due to little overlap
 constexpr std::size_t kRecentLosses = 10;  // frames whose tracking loss is the measure of a jump
 
 FrameView view_of(const Frame& frame, double depth_max) {
@@ -59,6 +61,8 @@ struct Slam::Implementation {
   std::vector<TrackedFrame> frames;
   std::vector<FrameReport> reports;
   std::deque<double> recent_losses;
+  std::optional<std::pair<Frame, FrameHandle>> newest;  ///< the last frame fed, unless it is a keyframe
+  int last_keyframe_frame = 0;                          ///< position among the frames fed
 
   Implementation(const SlamSettings& s, const Intrinsics& k, const EngineOptions& options)
       : settings(s), intrinsics(k), engine(options), random(static_cast<uint32_t>(s.seed)) {}
@@ -85,6 +89,9 @@ struct Slam::Implementation {
 
   void initialise(const Frame& frame, FrameReport& report);
   void track(FrameHandle handle, FrameReport& report);
+  bool wants_keyframe(const FrameReport& report) const;
+  void map_newest(FrameReport& report);
+  void release_newest();
   bool looks_lost(const TrackingResult& result) const;
   TrackingResult retry(FrameHandle handle, const TrackingSettings& tracking, TrackingResult best,
                        FrameReport& report);
@@ -107,19 +114,43 @@ const FrameReport& Slam::feed(const Frame& frame) {
     s.initialise(frame, report);
   } else {
     const FrameHandle handle = s.engine.load(view_of(frame, s.settings.depth_max));
+    s.release_newest();
     s.track(handle, report);
-    const int since_keyframe = static_cast<int>(s.frames.size()) - 1;
-    report.keyframe = !report.lost && since_keyframe % s.settings.keyframes.interval == 0;
-    if (report.keyframe) {
-      s.add_keyframe(frame, handle, report.world_to_camera);
-      s.map_window(report);
-    } else {
-      s.engine.release(handle);
-    }
+    report.keyframe = s.wants_keyframe(report);
+    s.newest = {frame, handle};
+    if (report.keyframe) s.map_newest(report);
   }
   report.gaussians = s.engine.size();
   s.reports.push_back(report);
   return s.reports.back();
+}
+
+void Slam::finish() {
+  Implementation& s = *implementation_;
+  if (s.newest && !s.reports.back().lost) s.map_newest(s.reports.back());
+  s.release_newest();
+}
+
+bool Slam::Implementation::wants_keyframe(const FrameReport& report) const {
+  if (report.lost) return false;
+  const int frame = static_cast<int>(frames.size()) - 1;
+  if (frame % settings.keyframes.interval == 0) return true;
+  return report.valid_fraction < settings.keyframes.valid_below &&
+         frame - last_keyframe_frame >= kKeyframeRest;
+}
+
+/// Makes the newest frame a keyframe and optimises the map over its window.
+void Slam::Implementation::map_newest(FrameReport& report) {
+  add_keyframe(newest->first, newest->second, report.world_to_camera);
+  newest.reset();
+  map_window(report);
+  report.keyframe = true;
+  report.gaussians = engine.size();
+}
+
+void Slam::Implementation::release_newest() {
+  if (newest) engine.release(newest->second);
+  newest.reset();
 }
 
 void Slam::Implementation::initialise(const Frame& frame, FrameReport& report) {
@@ -186,6 +217,7 @@ void Slam::Implementation::add_keyframe(const Frame& frame, FrameHandle handle, 
   keyframes.push_back(
       {frame.index, frame.timestamp, handle, camera, sample_points(frame, intrinsics, settings.depth_max)});
   frames.back() = {frame.timestamp, static_cast<int>(keyframes.size()) - 1, Pose::Identity()};
+  last_keyframe_frame = static_cast<int>(frames.size()) - 1;
   const RenderImages rendered = engine.render(camera);
   engine.insert(spawn_gaussians(frame, camera, &rendered, settings.spawn, settings.depth_max));
 }

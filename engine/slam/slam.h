@@ -30,6 +30,7 @@ struct FrameReport {
 ///
 ///   Slam slam(settings, intrinsics);
 ///   while (auto frame = stream.next()) slam.feed(*frame);
+///   slam.finish();
 ///   write_trajectory("trajectory.txt", slam.trajectory());
 ///   write_ply("map.ply", slam.map());
 class Slam {
@@ -42,6 +43,10 @@ class Slam {
   /// std::invalid_argument when the images do not have the size of the intrinsics. A frame that cannot be
   /// used throws and changes nothing.
   const FrameReport& feed(const Frame& frame);
+
+  /// Call after the last frame: unless it is a keyframe, it becomes one, so that the map shows all that was
+  /// seen.
+  void finish();
 
   /// Poses of all frames so far, camera to world, in the first camera's frame. Keyframes have their refined
   /// poses, and the frames between follow the keyframe that they were tracked after.

@@ -36,10 +36,9 @@ struct FrameView {
 
 /// How a pose is tracked (paper eq. 19 and 20).
 struct TrackingSettings {
-  int iterations = 25;
+  int iterations = 35;
   double rate_rotation = 0.0015;      ///< Adam's step, radians
   double rate_translation = 0.00215;  ///< Adam's step, metres
-  double rate_decay = 0.1;            ///< the steps shrink to this fraction by the last iteration
   double weight_colour = 1.0;         ///< lambda_1
   double weight_depth = 0.6;          ///< lambda_2
   double minimum_opacity = 0.99;      ///< pixels take part where O is above

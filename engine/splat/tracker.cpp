@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cmath>
 #include <limits>
 
 namespace surefield {
@@ -78,18 +77,15 @@ void Tracker::record_loss(gpu::Recorder& recorder, Rasteriser& rasteriser, const
 }
 
 void Tracker::record_step(gpu::Recorder& recorder, const Rasteriser& rasteriser, const SensorFrame& frame,
-                          const TrackingSettings& settings, int iteration) {
-  // Large steps to get there, small ones to settle.
-  const double progress = static_cast<double>(iteration) / std::max(1, settings.iterations - 1);
-  const double decay = std::pow(settings.rate_decay, progress);
+                          const TrackingSettings& settings) {
   recorder.dispatch(step_pass_, 1,
                     {.status = rasteriser.lists.status,
                      .pose_gradient = rasteriser.pose_gradient,
                      .sums = sums,
                      .camera = camera,
                      .state = state_},
-                    {.rate_rotation = static_cast<float>(settings.rate_rotation * decay),
-                     .rate_translation = static_cast<float>(settings.rate_translation * decay),
+                    {.rate_rotation = static_cast<float>(settings.rate_rotation),
+                     .rate_translation = static_cast<float>(settings.rate_translation),
                      .weight_colour = static_cast<float>(settings.weight_colour),
                      .weight_depth = static_cast<float>(settings.weight_depth),
                      .sensor_pixels = static_cast<float>(frame.valid_pixels)});
@@ -110,7 +106,7 @@ TrackingResult Tracker::track(Rasteriser& rasteriser, const GaussianMap& map, co
     for (int i = 0; i < std::min(kBatch, settings.iterations - done); ++i) {
       record_loss(recorder, rasteriser, map, frame, settings);
       rasteriser.record_backward_pose(recorder, map, {frame.size, camera, frame.depth});
-      record_step(recorder, rasteriser, frame, settings, done + i);
+      record_step(recorder, rasteriser, frame, settings);
     }
     recorder.submit();
     if (rasteriser.lists.grow_after_overflow()) continue;  // those iterations changed nothing

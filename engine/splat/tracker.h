@@ -38,7 +38,7 @@ class Tracker {
   };
   void record_masks(gpu::Recorder& recorder, uint32_t pixels, double outlier_factor);
   void record_step(gpu::Recorder& recorder, const Rasteriser& rasteriser, const SensorFrame& frame,
-                   const TrackingSettings& settings, int iteration);
+                   const TrackingSettings& settings);
 
   gpu::Device& device_;
   DepthPasses alpha_;

@@ -30,6 +30,7 @@ int main() {
       std::printf("frame %d: camera at %.3f %.3f %.3f m, %u Gaussians\n", report.index, position.x(),
                   position.y(), position.z(), report.gaussians);
     }
+    slam.finish();
     write_trajectory("example_trajectory.txt", slam.trajectory());
     write_ply("example_map.ply", slam.map());
     const bool complete = slam.trajectory().size() == 3 && std::filesystem::file_size("example_map.ply") > 0;

@@ -48,8 +48,8 @@ TEST_CASE("a run takes the configuration of its format, then the user's values")
   };
   CHECK(effective({}, "replica").keyframes.interval == 30);
   CHECK(effective({}, "replica").tracking.iterations == 15);
-  CHECK(effective({}, "tum").tracking.iterations == 25);
-  CHECK(effective({}, "unheard of").tracking.iterations == 25);
+  CHECK(effective({}, "tum").tracking.iterations == 35);
+  CHECK(effective({}, "unheard of").tracking.iterations == 35);
   CHECK(effective({.config = "replica.yaml"}, "tum").keyframes.interval == 30);
   const SlamSettings own = effective({.assignments = {"tracking.iterations=7", "seed=5"}}, "replica");
   CHECK(own.tracking.iterations == 7);
