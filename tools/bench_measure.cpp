@@ -82,7 +82,7 @@ class SceneBench {
     do {
       rasteriser_.record_forward(recorder_, map_, view(), Outputs::All);
       recorder_.submit();
-    } while (rasteriser_.lists.grow_after_overflow());
+    } while (rasteriser_.lists.settle() == 0);
     rasteriser_.pixel_gradients.upload(some_gradients(size_.pixels()));
     recorder_.enable_timestamps();
   }

@@ -12,6 +12,11 @@ namespace surefield::gpu {
 
 namespace {
 
+// What the kernels need beyond the least that Vulkan promises.
+constexpr uint32_t kStorageBuffers = 17;
+constexpr uint32_t kWorkgroupInvocations = 256;
+constexpr uint32_t kSharedMemoryBytes = 32768;
+
 const char* type_name(VkPhysicalDeviceType type) {
   switch (type) {
     case VK_PHYSICAL_DEVICE_TYPE_DISCRETE_GPU:
@@ -42,13 +47,20 @@ std::vector<std::string> missing_features(VkPhysicalDevice device,
   if (!features.v13.maintenance4) missing.push_back("maintenance4");
   if (!features.v13.subgroupSizeControl) missing.push_back("subgroupSizeControl");
   if (!features.v13.computeFullSubgroups) missing.push_back("computeFullSubgroups");
-  const VkSubgroupFeatureFlags needed = VK_SUBGROUP_FEATURE_BASIC_BIT | VK_SUBGROUP_FEATURE_VOTE_BIT |
-                                        VK_SUBGROUP_FEATURE_BALLOT_BIT | VK_SUBGROUP_FEATURE_SHUFFLE_BIT;
+  const VkSubgroupFeatureFlags needed =
+      VK_SUBGROUP_FEATURE_BASIC_BIT | VK_SUBGROUP_FEATURE_VOTE_BIT | VK_SUBGROUP_FEATURE_SHUFFLE_BIT;
   if ((subgroup.supportedOperations & needed) != needed ||
       !(subgroup.supportedStages & VK_SHADER_STAGE_COMPUTE_BIT))
-    missing.push_back("subgroup vote, ballot and shuffle in compute shaders");
+    missing.push_back("subgroup vote and shuffle in compute shaders");
   if (subgroup.subgroupSize < 4 || subgroup.subgroupSize > 64)
     missing.push_back("a subgroup size of 4 to 64");
+  const VkPhysicalDeviceLimits& limits = properties.limits;
+  if (limits.maxPerStageDescriptorStorageBuffers < kStorageBuffers)
+    missing.push_back(fmt::format("{} storage buffers in a shader", kStorageBuffers));
+  if (limits.maxComputeWorkGroupInvocations < kWorkgroupInvocations)
+    missing.push_back(fmt::format("workgroups of {}", kWorkgroupInvocations));
+  if (limits.maxComputeSharedMemorySize < kSharedMemoryBytes)
+    missing.push_back(fmt::format("{} bytes of shared memory", kSharedMemoryBytes));
   if (compute_queue_family(device) == UINT32_MAX) missing.push_back("a compute queue");
   return missing;
 }

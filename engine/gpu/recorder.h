@@ -72,7 +72,7 @@ class Recorder {
   void reserve(Array<T>& array, uint64_t count) {
     if (count <= array.capacity()) return;
     const uint64_t bytes = array.buffer().grown_bytes(count * sizeof(T));
-    replace(array, Array<T>(device_, array.buffer().name(), (bytes + sizeof(T) - 1) / sizeof(T)));
+    replace(array, Array<T>(device_, array.buffer().name(), std::max<uint64_t>(count, bytes / sizeof(T))));
   }
 
   /// Puts `successor` in the place of `array`; what was recorded before goes on using the old memory.

@@ -42,7 +42,7 @@ struct SlamSettings {
   SpawnSettings spawn;
   LossDetectionSettings lost;
 
-  /// Binds every key (docs/design.md) to its field; the settings must outlive the schema.
+  /// Binds every key (configs/base.yaml) to its field; the settings must outlive the schema.
   void bind(ConfigSchema& schema);
 };
 

@@ -117,7 +117,8 @@ const FrameReport& Slam::feed(const Frame& frame) {
     s.release_newest();
     s.track(handle, report);
     report.keyframe = s.wants_keyframe(report);
-    s.newest = {frame, handle};
+    // Copies of the images: the caller may reuse its own.
+    s.newest = {Frame{frame.index, frame.timestamp, frame.colour.clone(), frame.depth.clone()}, handle};
     if (report.keyframe) s.map_newest(report);
   }
   report.gaussians = s.engine.size();
@@ -186,7 +187,9 @@ TrackingResult Slam::Implementation::retry(FrameHandle handle, const TrackingSet
     ++report.retries;
     report.tracking_iterations += other.iterations;
     report.tracking_ms += other.milliseconds;
-    if (other.loss < best.loss || best.valid_fraction < settings.lost.minimum_valid) best = other;
+    const bool enough = std::min(best.valid_fraction, other.valid_fraction) >= settings.lost.minimum_valid;
+    const bool better = enough ? other.loss < best.loss : other.valid_fraction > best.valid_fraction;
+    if (better || !looks_lost(other)) best = other;
   }
   return best;
 }

@@ -37,7 +37,7 @@ DensifyPlan plan_densification(std::span<const GaussianStatistics> statistics,
       ++plan.result.pruned;
       continue;
     }
-    const bool grows = settings.grow && s.screen_gradient > settings.gradient_threshold;
+    const bool grows = s.screen_gradient > settings.gradient_threshold;
     if (grows && s.largest_scale > settings.split_scale * settings.extent) {
       children.insert(children.end(), {i | glsl::SOURCE_SPLIT, i | glsl::SOURCE_SPLIT});
       ++plan.result.split;

@@ -35,7 +35,8 @@ struct SplatEngine::Implementation {
         mapper(device),
         densifier(device) {}
 
-  /// Takes the steps of `order`, a few per submission; steps that found too little room are taken again.
+  /// Takes the steps of `order`, a few per submission; steps from the first on that found too little room are
+  /// taken again.
   void run_steps(std::span<const MappingView> views, std::span<CameraVariable> cameras,
                  std::span<const int> order, const MappingSettings& settings, double extent) {
     gpu::Recorder recorder(device);
@@ -47,8 +48,7 @@ struct SplatEngine::Implementation {
                            view.refine_pose, settings, extent);
       }
       recorder.submit();
-      if (rasteriser.lists.grow_after_overflow()) continue;
-      done = end;
+      done += rasteriser.lists.settle();
     }
   }
 };
@@ -86,11 +86,6 @@ uint32_t SplatEngine::size() const {
 
 RenderImages SplatEngine::render(const Camera& camera) const {
   return render(camera, std::span<const float>{});
-}
-
-RenderImages SplatEngine::render(const Camera& camera, FrameHandle frame) const {
-  const SensorFrame& sensor = implementation_->frames.at(frame);
-  return render(camera, sensor.depth.download(sensor.size.pixels()));
 }
 
 RenderImages SplatEngine::render(const Camera& camera, std::span<const float> sensor_depth) const {

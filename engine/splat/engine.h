@@ -97,7 +97,6 @@ struct DensifySettings {
   double minimum_opacity = 0.005;    ///< fainter ones are removed
   double maximum_scale = 0.1;        ///< larger ones are removed; times extent, metres
   double extent = 1;                 ///< size of the scene, metres
-  bool grow = true;                  ///< false: remove only
   uint64_t seed = 0;                 ///< where split children fall
 };
 
@@ -134,9 +133,8 @@ class SplatEngine {
   GaussianCloud map() const;
   uint32_t size() const;
 
-  /// Renders a camera; with a frame, its depth gives the uncertainty.
+  /// Renders a camera; with sensor depth (metres, row-major), also the uncertainty.
   RenderImages render(const Camera& camera) const;
-  RenderImages render(const Camera& camera, FrameHandle frame) const;
   RenderImages render(const Camera& camera, std::span<const float> sensor_depth) const;
 
   /// Finds the pose of a frame in the fixed map, starting from that of `start`.

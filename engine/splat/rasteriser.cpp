@@ -149,6 +149,7 @@ void Rasteriser::record_backward(gpu::Recorder& recorder, GaussianMap& map, cons
                               .gaussian_gradients = gaussian_gradients,
                               .sh_gradients = sh_gradients,
                               .pose_partials = pose_partials_,
+                              .status = lists.status,
                               .densification = map.densification},
                              {.weight_isotropy = isotropy_weight, .isotropy_epsilon = 1.0f});
   recorder.dispatch(
@@ -201,7 +202,7 @@ RenderImages Rasteriser::render(const GaussianMap& map, const Camera& camera,
   do {
     record_forward(recorder, map, {size, state, depth}, Outputs::All);
     recorder.submit();
-  } while (lists.grow_after_overflow());
+  } while (lists.settle() == 0);
 
   RenderImages images;
   images.width = static_cast<int>(size.width);

@@ -52,8 +52,7 @@ class Rasteriser {
 
   TileLists lists;
   Eigen::Vector3f background = Eigen::Vector3f::Zero();
-  PoseGradientKind pose_gradient_kind =
-      PoseGradientKind::Full;  ///< read when the backward passes are first recorded
+  PoseGradientKind pose_gradient_kind = PoseGradientKind::Full;  ///< of every later record_backward*()
 
   // Images of the last view, row-major.
   gpu::Array<glsl::vec4> colour_opacity;  ///< I (RGB), O

@@ -3,11 +3,14 @@
 #include <algorithm>
 #include <bit>
 
+#include "engine/gpu/error.h"
+
 namespace surefield {
 
 namespace {
 
 constexpr uint32_t kInstanceArgs = 1;
+constexpr uint32_t kInstanceWorkgroup = 256;  // large, since there may be millions of instances
 constexpr uint32_t kFirstInstanceCapacity = 1u << 16;
 
 passes::emit_instances::Constants tile_constants(const TileShape& shape) {
@@ -36,7 +39,7 @@ TileLists::TileLists(gpu::Device& device, const TileShape& shape)
       compact_(device, kWorkgroup),
       gather_(device, kWorkgroup),
       emit_(device, kWorkgroup, tile_constants(shape)),
-      ranges_(device, kWorkgroup),
+      ranges_(device, kInstanceWorkgroup),
       prepare_(device, device.limits().subgroup_size),
       scan_(device),
       sort_(device),
@@ -62,6 +65,11 @@ gpu::Pass<passes::project_splats>& TileLists::projection(int sh_degree) {
 }
 
 void TileLists::reserve_instances(uint32_t capacity) {
+  const uint64_t most = static_cast<uint64_t>(device_.limits().workgroups_x) * kInstanceWorkgroup;
+  if (capacity > most)
+    throw gpu::Error(
+        gpu::Error::Kind::Limit,
+        "the view needs more (Gaussian, tile) pairs than the device can dispatch: use a smaller image");
   instance_capacity_ = std::max(instance_capacity_, capacity);
   instances.reserve(instance_capacity_);
   instance_owners_.reserve(instance_capacity_);
@@ -136,13 +144,14 @@ void TileLists::record_instances(gpu::Recorder& recorder, const gpu::Array<glsl:
                               .instances = instances,
                               .instance_owners = instance_owners_,
                               .status = status,
-                              .instance_count = instance_count_},
+                              .instance_count = instance_count_,
+                              .sorted_counts = sorted_counts},
                              {.capacity = instance_capacity_});
   const auto bits = static_cast<uint32_t>(std::bit_width(tiles - 1));
   sort_.record(recorder, tile_keys_, instances, {instance_count_, instance_capacity_}, bits);
   recorder.fill(tile_ranges, tiles, 0);
   recorder.dispatch(prepare_, 1, {.element_count = instance_count_, .dispatch_args = dispatch_args},
-                    {.workgroup_size = kWorkgroup, .slot = kInstanceArgs});
+                    {.workgroup_size = kInstanceWorkgroup, .slot = kInstanceArgs});
   recorder.dispatch_indirect(ranges_, dispatch_args, kInstanceArgs,
                              {.instance_count = instance_count_,
                               .tile_keys = tile_keys_,
@@ -157,12 +166,11 @@ glsl::RenderStatus TileLists::read_status() const {
   return status.download(1)[0];
 }
 
-bool TileLists::grow_after_overflow() {
+uint32_t TileLists::settle() {
   const glsl::RenderStatus now = read_status();
-  if (!now.overflow) return false;
-  reserve_instances(now.instances + now.instances / 4);
-  status.upload(std::vector<glsl::RenderStatus>{{}});
-  return true;
+  if (now.overflow) reserve_instances(now.needed + now.needed / 4);
+  status.upload(std::vector<glsl::RenderStatus>{{.visible = now.visible, .instances = now.instances}});
+  return now.completed;
 }
 
 }  // namespace surefield

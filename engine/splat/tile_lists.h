@@ -43,10 +43,11 @@ class TileLists {
   void record(gpu::Recorder& recorder, const GaussianMap& map, const gpu::Array<glsl::CameraState>& camera,
               const ImageSize& size);
 
-  /// Makes room for as many instances as the last submitted record() would have needed, and clears the
-  /// overflow flag. Returns whether there had been too little room, so that the work must be done again.
-  bool grow_after_overflow();
-  /// Room for instances; grow_after_overflow() raises it.
+  /// After a submission: makes room if a view had more instances than that, and returns how many of the
+  /// recorded views came before it. From that view on nothing was changed, and the work must be recorded
+  /// again.
+  uint32_t settle();
+  /// Room for instances; settle() raises it.
   void reserve_instances(uint32_t capacity);
 
   /// Numbers of the last submitted view.

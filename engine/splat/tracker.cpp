@@ -105,12 +105,13 @@ TrackingResult Tracker::track(Rasteriser& rasteriser, const GaussianMap& map, co
   for (int done = 0; done < settings.iterations; done = static_cast<int>(state.adam.steps)) {
     for (int i = 0; i < std::min(kBatch, settings.iterations - done); ++i) {
       record_loss(recorder, rasteriser, map, frame, settings);
-      rasteriser.record_backward_pose(recorder, map, {frame.size, camera, frame.depth});
+      rasteriser.record_backward_pose(recorder, map, {frame.size, camera, frame.depth}, Outputs::ColourDepth);
       record_step(recorder, rasteriser, frame, settings);
     }
     recorder.submit();
-    if (rasteriser.lists.grow_after_overflow()) continue;  // those iterations changed nothing
+    const uint32_t completed = rasteriser.lists.settle();
     state = state_.download(1)[0];
+    if (completed == 0) continue;  // there was too little room, and now there is enough
     const bool stuck = static_cast<int>(state.adam.steps) == done;
     if (stuck || state.last_update < settings.stop_below) break;
   }

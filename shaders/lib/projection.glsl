@@ -61,8 +61,3 @@ vec3 covariance_2d(vec3 row0, vec3 row1) {
 vec3 inverse_2d(vec3 m) {
   return vec3(m.z, -m.y, m.x) / (m.x * m.z - m.y * m.y);
 }
-
-/// The footprint ends where d^T conic d exceeds this: there alpha falls below ALPHA_MIN. Negative: never visible.
-float footprint_limit(float opacity) {
-  return 2 * log(opacity / ALPHA_MIN);
-}

@@ -1,7 +1,8 @@
 // Which tiles a footprint touches, exactly. Needs splat_types.h, projection.glsl and the constants TILE_W, TILE_H.
 // `precise` everywhere: two passes compute this and must agree to the last bit, whatever a compiler likes to fuse.
 
-/// The ellipse d^T conic d <= limit around `centre`, widened by a hair so that no pixel is lost to rounding.
+/// The ellipse d^T conic d <= limit around `centre`, where alpha falls below ALPHA_MIN; widened by a hair so that no pixel
+/// is lost to rounding. A negative limit: never visible.
 struct Footprint {
   vec2 centre;
   vec3 conic;
@@ -18,7 +19,7 @@ Footprint footprint_of(CameraState c, Splat s) {
   Footprint f;
   f.centre = s.centre;
   f.conic = s.conic;
-  precise const float limit = footprint_limit(s.opacity) * 1.0001 + 1e-4;
+  precise const float limit = 2 * log(s.opacity / ALPHA_MIN) * 1.0001 + 1e-4;
   f.limit = limit;
   precise const float determinant = s.conic.x * s.conic.z - s.conic.y * s.conic.y;
   precise const vec2 extent = sqrt(max(limit, 0) * vec2(s.conic.z, s.conic.x) / determinant) * 1.0001 + 1e-3;
@@ -26,8 +27,8 @@ Footprint footprint_of(CameraState c, Splat s) {
   const float last_row = float(c.height) - 1;
   precise const float top = max(ceil(s.centre.y - extent.y), 0);
   precise const float bottom = min(floor(s.centre.y + extent.y), last_row);
-  const bool on_image = limit > 0 && top <= bottom && s.centre.x + extent.x >= 0 &&
-                        s.centre.x - extent.x <= float(c.width) - 1;
+  precise const float left = s.centre.x - extent.x, right = s.centre.x + extent.x;
+  const bool on_image = limit > 0 && top <= bottom && right >= 0 && left <= float(c.width) - 1;
   f.rows = on_image ? uvec2(uint(top) / TILE_H, uint(bottom) / TILE_H + 1) : uvec2(0);
   return f;
 }

@@ -15,5 +15,6 @@
   WRITE(7, uint, instances)                \
   WRITE(8, uint, instance_owners)          \
   UPDATE(9, RenderStatus, status)          \
-  WRITE(10, uint, instance_count)
+  WRITE(10, uint, instance_count)          \
+  READ(11, uint, sorted_counts)
 #include "declare_pass.h"

@@ -19,5 +19,6 @@
   WRITE(11, GaussianGradient, gaussian_gradients) \
   WRITE(12, vec3, sh_gradients)                  \
   WRITE(13, PoseGradient, pose_partials)         \
-  UPDATE(14, vec2, densification) /* sum of the norm of the screen gradient, times seen */
+  READ(14, RenderStatus, status)                 \
+  UPDATE(15, vec2, densification) /* sum of the norm of the screen gradient, times seen */
 #include "declare_pass.h"

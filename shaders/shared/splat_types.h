@@ -63,11 +63,13 @@ struct PoseGradient {
   vec3 translation;
 };
 
-/// Device-side bookkeeping of one render.
+/// Device-side bookkeeping of the views of one submission.
 struct RenderStatus {
-  uint visible;    // Gaussians that touch the image
-  uint instances;  // (Gaussian, tile) pairs
-  uint overflow;   // 1 once there were more instances than room; passes that update parameters then do nothing
+  uint visible;    // Gaussians that touch the image, of the last view
+  uint instances;  // (Gaussian, tile) pairs, of the last view
+  uint overflow;   // 1 once a view had more instances than room; passes that update anything then do nothing
+  uint needed;     // the most instances that a view without room had
+  uint completed;  // views rendered before the first that had no room
 };
 
 // How a Gaussian of a rebuilt map came about, in the top bits of its source's index.

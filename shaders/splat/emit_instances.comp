@@ -15,7 +15,11 @@ void main() {
   if (v == 0) {
     status[0].visible = visible_count[0];
     status[0].instances = total;
-    if (!fits) status[0].overflow = 1;
+    if (!fits) {
+      status[0].overflow = 1;
+      status[0].needed = max(status[0].needed, total);
+    }
+    if (status[0].overflow == 0) status[0].completed += 1;
     instance_count[0] = fits ? total : 0;
   }
   if (v >= visible_count[0] || !fits) return;
@@ -25,13 +29,20 @@ void main() {
   const Footprint f = footprint_of(c, splats[id]);
   const uint columns = tiles_of(c).x;
   uint slot = instance_offsets[v];
+  // project_splats counted the same tiles; should a compiler make the two differ, no neighbour's slot may suffer.
+  const uint end = slot + sorted_counts[v];
   for (uint row = f.rows.x; row < f.rows.y; ++row) {
     const uvec2 touched = touched_tiles(f, c, row);
-    for (uint column = touched.x; column < touched.y; ++column) {
+    for (uint column = touched.x; column < touched.y && slot < end; ++column) {
       tile_keys[slot] = row * columns + column;
       instances[slot] = slot;
       instance_owners[slot] = id;
       ++slot;
     }
+  }
+  for (; slot < end; ++slot) {
+    tile_keys[slot] = 0;
+    instances[slot] = slot;
+    instance_owners[slot] = id;
   }
 }

@@ -11,7 +11,7 @@
 // is summed over the subgroup, one partial each.
 void main() {
   const uint v = gl_GlobalInvocationID.x;
-  const bool active_lane = v < visible_count[0];
+  const bool active_lane = v < visible_count[0] && status[0].overflow == 0;
   PoseGradient pose = PoseGradient(vec3(0), vec3(0));
   if (active_lane) {
     const uint id = visible_ids[v];

@@ -46,13 +46,13 @@ TEST_CASE("a run takes the configuration of its format, then the user's values")
     load_settings(settings, options, format);
     return settings;
   };
-  CHECK(effective({}, "replica").keyframes.interval == 30);
+  CHECK(effective({}, "replica").keyframes.interval == 10);
   CHECK(effective({}, "replica").tracking.iterations == 15);
   CHECK(effective({}, "tum").tracking.iterations == 35);
   CHECK(effective({}, "unheard of").tracking.iterations == 35);
-  CHECK(effective({.config = "replica.yaml"}, "tum").keyframes.interval == 30);
+  CHECK(effective({.config = "replica.yaml"}, "tum").keyframes.interval == 10);
   const SlamSettings own = effective({.assignments = {"tracking.iterations=7", "seed=5"}}, "replica");
   CHECK(own.tracking.iterations == 7);
   CHECK(own.seed == 5);
-  CHECK(own.keyframes.interval == 30);
+  CHECK(own.keyframes.interval == 10);
 }
