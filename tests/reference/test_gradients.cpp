@@ -257,7 +257,8 @@ TEST_CASE("gradients of the projected Gaussians agree with finite differences") 
       }
       check_derivative("o", f, p.opacity, [&](int i) { return gradient(i).opacity; });
       check_derivative("z", f, p.camera_mean.z(), [&](int i) { return gradient(i).depth; });
-      for (const auto& [row, column] : {std::pair(0, 0), std::pair(0, 1), std::pair(1, 0), std::pair(1, 1)}) {
+      for (int entry = 0; entry < 4; ++entry) {
+        const int row = entry / 2, column = entry % 2;
         check_derivative("conic", f, p.conic(row, column),
                          [&](int i) { return gradient(i).conic(row, column); });
         if (problem.decisions.gaussians[n].culled) continue;

@@ -65,7 +65,8 @@ TEST_CASE("every output agrees with the oracle on every kind of scene") {
 }
 
 TEST_CASE("single Gaussians, odd and tiny images, SH degrees 1 and 2") {
-  for (auto [width, height] : {std::pair{1, 1}, {1, 37}, {53, 1}, {7, 9}, {65, 41}}) {
+  for (const auto& size : {std::pair{1, 1}, {1, 37}, {53, 1}, {7, 9}, {65, 41}}) {
+    const int width = size.first, height = size.second;
     CAPTURE(width);
     CAPTURE(height);
     for (int count : {1, 40})

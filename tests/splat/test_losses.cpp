@@ -77,7 +77,8 @@ TEST_CASE("the mapping loss and its gradient agree with the oracle") {
   Mapper mapper(device);
   GaussianMap map(device);
   for (DepthKind kind : {DepthKind::Alpha, DepthKind::Normalised})
-    for (auto [width, height] : {std::pair{1, 1}, {9, 5}, {48, 36}, {83, 61}}) {
+    for (const auto& size : {std::pair{1, 1}, {9, 5}, {48, 36}, {83, 61}}) {
+      const int width = size.first, height = size.second;
       CAPTURE(width);
       const auto scene = reference::random_scene(7, 200, {.width = width, .height = height});
       map.assign(scene.cloud);
