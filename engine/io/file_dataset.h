@@ -74,7 +74,7 @@ bool is_tum(const std::filesystem::path& folder);
 bool is_replica(const std::filesystem::path& folder);
 bool is_sevenscenes(const std::filesystem::path& folder);
 inline constexpr const char* kTumLayout = "rgb.txt and depth.txt";
-inline constexpr const char* kReplicaLayout = "results/frame000000.jpg";
+inline constexpr const char* kReplicaLayout = "results/frame000000.jpg or .png";
 inline constexpr const char* kSevenScenesLayout = "frame-000000.color.jpg or .png";
 StoredSequence read_tum_sequence(const std::filesystem::path& folder);
 StoredSequence read_replica_sequence(const std::filesystem::path& folder);

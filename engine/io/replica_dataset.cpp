@@ -1,5 +1,5 @@
-// Replica as rendered for iMAP and NICE-SLAM: results/frame%06d.jpg, results/depth%06d.png, traj.txt,
-// cam_params.json.
+// Replica as rendered for iMAP and NICE-SLAM: results/frame%06d.jpg (or .png), results/depth%06d.png,
+// traj.txt, cam_params.json.
 #include "engine/io/error.h"
 #include "engine/io/file_dataset.h"
 #include "engine/io/files.h"
@@ -31,10 +31,14 @@ Trajectory read_rows(const std::filesystem::path& file) {
   return trajectory;
 }
 
+std::string colour_suffix(const std::filesystem::path& folder) {
+  return numbered_files(folder / "results", "frame", ".png").empty() ? ".jpg" : ".png";
+}
+
 }  // namespace
 
 bool is_replica(const std::filesystem::path& folder) {
-  return !numbered_files(folder / "results", "frame", ".jpg").empty();
+  return !numbered_files(folder / "results", "frame", colour_suffix(folder)).empty();
 }
 
 StoredSequence read_replica_sequence(const std::filesystem::path& folder) {
@@ -44,7 +48,7 @@ StoredSequence read_replica_sequence(const std::filesystem::path& folder) {
   const JsonObject camera = JsonObject(find_calibration(folder)).object("camera");
   sequence.intrinsics = read_intrinsics(camera, "w", "h");
   sequence.depth_encoding.unit = 1 / camera.positive("scale");
-  sequence.frames = numbered_frames(folder / "results", {"frame", ".jpg"}, {"depth", ".png"});
+  sequence.frames = numbered_frames(folder / "results", {"frame", colour_suffix(folder)}, {"depth", ".png"});
   const std::filesystem::path truth = folder / "traj.txt";
   if (std::filesystem::exists(truth)) sequence.ground_truth = read_rows(truth);
   return sequence;

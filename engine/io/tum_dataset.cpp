@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 
+#include "engine/io/camera_file.h"
 #include "engine/io/error.h"
 #include "engine/io/file_dataset.h"
 #include "engine/io/files.h"
@@ -40,9 +41,20 @@ const std::array<Calibration, 3>& known_calibrations() {
   return calibrations;
 }
 
-/// Own recordings in this layout bring cam_params.json; for the benchmark's sequences the folder's name
-/// tells.
+void read_own_camera(const std::filesystem::path& file, StoredSequence& sequence) {
+  const RecordedCamera camera = read_camera_file(file);
+  if (camera.intrinsics.width == 0) {
+    throw InputError(file, "width and height are missing; in this layout they are needed");
+  }
+  sequence.intrinsics = camera.intrinsics;
+  sequence.distortion = camera.distortion;
+  sequence.depth_encoding.unit = camera.depth_unit;
+}
+
+/// Own recordings in this layout bring camera.yaml or cam_params.json; for the benchmark's sequences the
+/// folder's name tells.
 void read_calibration(const std::filesystem::path& folder, StoredSequence& sequence) {
+  if (std::filesystem::exists(folder / kCameraFile)) return read_own_camera(folder / kCameraFile, sequence);
   const std::filesystem::path file = folder / "cam_params.json";
   if (std::filesystem::exists(file)) {
     const JsonObject camera = JsonObject(file).object("camera");
@@ -62,7 +74,8 @@ void read_calibration(const std::filesystem::path& folder, StoredSequence& seque
   throw InputError(
       folder,
       "the camera is unknown: the folder's name has none of freiburg1, freiburg2, freiburg3 (or fr1, "
-      "fr2, fr3), and there is no cam_params.json with w, h, fx, fy, cx, cy, scale under \"camera\"");
+      "fr2, fr3), and there is no camera.yaml with width, height, fx, fy, cx, cy, depth_unit (nor "
+      "cam_params.json with w, h, fx, fy, cx, cy, scale under \"camera\")");
 }
 
 struct ListedImage {

@@ -99,6 +99,30 @@ TEST_CASE("TUM: the camera comes from the folder's name or from cam_params.json"
   CHECK(open_dataset(second.path())->intrinsics().fx == 520.9);
 }
 
+TEST_CASE("TUM: camera.yaml goes before the folder's name, and each of its keys is checked") {
+  const TemporaryFolder folder("own_fr1_recording");
+  write_tum(folder);
+  const std::string text = "width: 640\nheight: 480\nfx: 500\nfy: 501\ncx: 319\ncy: 239\n";
+  const auto error = [&](const std::string& content) {
+    folder.write("camera.yaml", content);
+    return open_error(folder);
+  };
+  CHECK(error(text + "depth_unit: 0.001\ndistortion: [0.1, 0, 0, 0, 0]\n").empty());
+  const auto dataset = open_dataset(folder.path());
+  CHECK(dataset->intrinsics().fx == 500);
+  CHECK(dataset->intrinsics().fy == 501);
+  CHECK(dataset->intrinsics().width == 640);
+  CHECK(dataset->intrinsics().cy == 239);
+  CHECK(dataset->depth_unit() == 0.001);
+  REQUIRE(dataset->load(0).frame);
+  CHECK(dataset->load(0).frame->depth.at<float>(240, 320) == 5.0f);
+  CHECK(contains(error(text), "camera.yaml: depth_unit is missing"));
+  CHECK(contains(error(text + "depth_unit: 0\n"), "camera.yaml:7: depth_unit must be"));
+  CHECK(contains(error(text + "depth_scale: 1000\n"), "camera.yaml:7: unknown key depth_scale"));
+  CHECK(contains(error("height: 480\nfx: 1\nfy: 1\ncx: 1\ncy: 1\ndepth_unit: 1\n"), "both or not at all"));
+  CHECK(contains(error("fx: 1\nfy: 1\ncx: 1\ncy: 1\ndepth_unit: 1\n"), "width and height are missing"));
+}
+
 TEST_CASE("TUM: broken lists are named with the line") {
   const TemporaryFolder folder("fr1_broken");
   write_tum(folder);
@@ -173,6 +197,9 @@ TEST_CASE("Replica: the calibration is found here or in the parent folder; each 
   CHECK(open_dataset(folder.path())->ground_truth()->front().camera_to_world.translation().z() == 7);
   std::filesystem::rename(folder / "cam_params.json", folder.path().parent_path() / "cam_params.json");
   CHECK(open_dataset(folder.path() / "")->intrinsics().fy == 11);
+  write_images(folder, "results/frame000000.png", "results/depth000000.png", {12, 8});
+  std::filesystem::remove(folder / "results/frame000000.jpg");
+  CHECK(open_dataset(folder.path())->load(0).frame);
   std::filesystem::remove(folder.path().parent_path() / "cam_params.json");
   CHECK(contains(open_error(folder), "cam_params.json is missing"));
   folder.write("cam_params.json", R"({"camera": {"w": 12, "h": 8, "fx": 10, "fy": 10, "cx": 5, "cy": 3}})");
