@@ -58,13 +58,15 @@ class HeaderParser {
     line_ = number;
     if (keyword == "format") take_format(words);
     if (keyword == "element") take_element(words);
-    if (keyword == "property" && elements_ == 1) take_property(words);
+    if (keyword == "property") take_property(words);
   }
 
   void finish() const {
     if (!has_format_) throw InputError(file_, "its PLY header names no format");
-    if (elements_ == 0) throw InputError(file_, "its PLY header has no element vertex");
-    if (header_.properties.empty()) throw InputError(file_, "its PLY header gives the vertices no property");
+    if (header_.elements.empty()) throw InputError(file_, "its PLY header has no element vertex");
+    if (header_.vertices().properties.empty()) {
+      throw InputError(file_, "its PLY header gives the vertices no property");
+    }
   }
 
  private:
@@ -79,31 +81,44 @@ class HeaderParser {
   }
 
   void take_element(std::istringstream& words) {
-    std::string name;
+    PlyElement element;
     std::string count;
-    words >> name >> count;
-    if (++elements_ > 1) return;
-    if (name != "vertex") fail("the first element must be vertex, it is \"" + name + "\"");
-    const auto [end, error] = std::from_chars(count.data(), count.data() + count.size(), header_.vertices);
-    if (error != std::errc() || end != count.data() + count.size() || count.empty()) {
-      fail("\"" + count + "\" is no number of vertices");
+    words >> element.name >> count;
+    if (header_.elements.empty() && element.name != "vertex") {
+      fail("the first element must be vertex, it is \"" + element.name + "\"");
     }
+    const auto [end, error] = std::from_chars(count.data(), count.data() + count.size(), element.count);
+    if (error != std::errc() || end != count.data() + count.size() || count.empty()) {
+      fail("\"" + count + "\" is no number of records");
+    }
+    header_.elements.push_back(std::move(element));
   }
 
   void take_property(std::istringstream& words) {
+    if (header_.elements.empty()) fail("a property stands before the first element");
     std::string type_name;
-    std::string name;
-    words >> type_name >> name;
+    PlyProperty property;
+    words >> type_name;
+    if (type_name == "list" && header_.elements.size() > 1) {
+      std::string length_name;
+      words >> length_name >> type_name;
+      property.list_length = parse_type(length_name);
+      if (!property.list_length) fail("\"" + length_name + "\" is no type for the length of a list");
+    }
+    words >> property.name;
     const auto type = parse_type(type_name);
-    if (!type || name.empty()) fail("a property of type \"" + type_name + "\" is not possible in a vertex");
-    header_.properties.push_back({name, *type});
+    if (!type || property.name.empty()) {
+      const std::string& element = header_.elements.back().name;
+      fail("a property of type \"" + type_name + "\" is not possible in the element " + element);
+    }
+    property.type = *type;
+    header_.elements.back().properties.push_back(std::move(property));
   }
 
   [[noreturn]] void fail(const std::string& problem) const { throw InputError(file_, line_, problem); }
 
   const std::filesystem::path& file_;
   PlyHeader& header_;
-  int elements_ = 0;
   int line_ = 0;
   bool has_format_ = false;
 };
@@ -111,11 +126,15 @@ class HeaderParser {
 /// Refuses a count that the file cannot hold, so that a damaged header asks for no absurd amount of memory.
 void check_length(const std::filesystem::path& file, const PlyHeader& header) {
   const std::size_t data = std::filesystem::file_size(file) - header.data_offset;
+  const PlyElement& vertices = header.vertices();
   // The shortest ASCII vertex has one digit and one separator per value; the last separator may be missing.
-  const std::size_t possible =
-      header.is_ascii ? (data + 1) / (2 * header.properties.size()) : data / header.stride();
-  if (header.vertices > possible) {
-    throw InputError(file, "holds fewer Gaussians than its header says (" + std::to_string(header.vertices) +
+  std::size_t shortest = 2 * vertices.properties.size();
+  if (!header.is_ascii) {
+    shortest = 0;
+    for (const PlyProperty& property : vertices.properties) shortest += ply_type_size(property.type);
+  }
+  if (vertices.count > (data + (header.is_ascii ? 1 : 0)) / shortest) {
+    throw InputError(file, "holds fewer vertices than its header says (" + std::to_string(vertices.count) +
                                "); the file is cut off");
   }
 }
@@ -140,10 +159,11 @@ std::size_t ply_type_size(PlyType type) {
   return 0;
 }
 
-std::size_t PlyHeader::offset(std::size_t i) const {
-  std::size_t bytes = 0;
-  for (std::size_t j = 0; j < i; ++j) bytes += ply_type_size(properties[j].type);
-  return bytes;
+std::optional<std::size_t> PlyElement::find(const std::string& property) const {
+  for (std::size_t i = 0; i < properties.size(); ++i) {
+    if (properties[i].name == property) return i;
+  }
+  return std::nullopt;
 }
 
 PlyHeader read_ply_header(const std::filesystem::path& file) {

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -13,24 +14,30 @@ enum class PlyType { int8, uint8, int16, uint16, int32, uint32, float32, float64
 /// Size in bytes.
 std::size_t ply_type_size(PlyType type);
 
-/// A named scalar of each vertex.
+/// A named scalar, or a named list of them, in each record of an element.
 struct PlyProperty {
   std::string name;
   PlyType type = PlyType::float32;
+  std::optional<PlyType> list_length;  ///< type of the number before the values of a list; none for a scalar
 };
 
-/// The header of a PLY file whose first element is `vertex`. What follows that element is ignored.
-struct PlyHeader {
-  bool is_ascii = false;  ///< else binary little endian
-  std::size_t vertices = 0;
+/// A kind of records, for example all vertices.
+struct PlyElement {
+  std::string name;
+  std::size_t count = 0;
   std::vector<PlyProperty> properties;
-  std::size_t data_offset = 0;  ///< of the first vertex, bytes from the start of the file
 
-  /// Bytes of one vertex in a binary file.
-  std::size_t stride() const { return offset(properties.size()); }
+  /// Where in the properties `property` stands; nullopt where the element has none of that name.
+  std::optional<std::size_t> find(const std::string& property) const;
+};
 
-  /// Bytes from the start of a vertex to its property `i` in a binary file.
-  std::size_t offset(std::size_t i) const;
+/// The header of a PLY file whose first element is `vertex`, with scalar properties only.
+struct PlyHeader {
+  bool is_ascii = false;             ///< else binary little endian
+  std::vector<PlyElement> elements;  ///< in the order of their records; at least one
+  std::size_t data_offset = 0;       ///< of the first vertex, bytes from the start of the file
+
+  const PlyElement& vertices() const { return elements.front(); }
 };
 
 /// Reads a header and checks that the file is long enough for its vertices. Throws InputError.

@@ -134,10 +134,10 @@ TEST_CASE("wrong files are refused with the reason") {
   CHECK(contains(read_error(folder, replaced(good, "format ascii 1.0\n", "")), "names no format"));
   CHECK(contains(read_error(folder, replaced(good, "element vertex", "element face")),
                  "first element must be vertex"));
-  CHECK(contains(read_error(folder, replaced(good, "vertex 2", "vertex -2")), "no number of vertices"));
+  CHECK(contains(read_error(folder, replaced(good, "vertex 2", "vertex -2")), "no number of records"));
   CHECK(contains(read_error(folder, replaced(good, "vertex 2", "vertex 3")), "(3); the file is cut off"));
-  CHECK(contains(read_error(folder, replaced(good, "vertex 2", "vertex 99999999999")),
-                 "holds fewer Gaussians"));
+  CHECK(
+      contains(read_error(folder, replaced(good, "vertex 2", "vertex 99999999999")), "holds fewer vertices"));
   CHECK(contains(read_error(folder, replaced(good, "float rot_3", "float other")), "has no property rot_3"));
   CHECK(contains(read_error(folder, replaced(good, "uchar label", "float f_rest_0")),
                  "has 1 properties f_rest_*"));
