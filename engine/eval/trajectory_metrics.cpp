@@ -64,19 +64,33 @@ double rotation_angle(const Eigen::Matrix3d& rotation) {
   return Eigen::AngleAxisd(rotation).angle();
 }
 
-void measure_relative_errors(const std::vector<PosePair>& pairs, TrajectoryMetrics& metrics) {
-  double translation = 0;
-  double rotation = 0;
-  for (std::size_t i = 1; i < pairs.size(); ++i) {
-    const Eigen::Isometry3d estimated = pairs[i - 1].estimate.inverse() * pairs[i].estimate;
-    const Eigen::Isometry3d true_motion = pairs[i - 1].truth.inverse() * pairs[i].truth;
+/// Adds up squared errors of motions.
+class MotionErrors {
+ public:
+  void add(const PosePair& from, const PosePair& to) {
+    const Eigen::Isometry3d estimated = from.estimate.inverse() * to.estimate;
+    const Eigen::Isometry3d true_motion = from.truth.inverse() * to.truth;
     const Eigen::Isometry3d error = true_motion.inverse() * estimated;
-    translation += error.translation().squaredNorm();
-    rotation += std::pow(rotation_angle(error.linear()), 2);
+    translation_ += error.translation().squaredNorm();
+    rotation_ += std::pow(rotation_angle(error.linear()), 2);
+    ++motions_;
   }
-  const auto steps = static_cast<double>(pairs.size() - 1);
-  metrics.rpe_translation = std::sqrt(translation / steps);
-  metrics.rpe_rotation = std::sqrt(rotation / steps);
+
+  RelativeError total() const {
+    if (motions_ == 0) return {};
+    return {motions_, std::sqrt(translation_ / motions_), std::sqrt(rotation_ / motions_)};
+  }
+
+ private:
+  int motions_ = 0;
+  double translation_ = 0;
+  double rotation_ = 0;
+};
+
+RelativeError consecutive_error(const std::vector<PosePair>& pairs) {
+  MotionErrors errors;
+  for (std::size_t i = 1; i < pairs.size(); ++i) errors.add(pairs[i - 1], pairs[i]);
+  return errors.total();
 }
 
 }  // namespace
@@ -118,6 +132,24 @@ Eigen::Isometry3d align(const std::vector<PosePair>& pairs) {
   return alignment;
 }
 
+RelativeError relative_error(const std::vector<PosePair>& pairs, double seconds) {
+  constexpr double kTolerance = 0.1;  // of the time; camera clocks jitter, and strides seldom divide a second
+  constexpr double kRounding = 1e-6;  // seconds, of stamps in files
+  MotionErrors errors;
+  std::size_t later = 0;
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    const auto miss = [&](std::size_t k) {
+      return std::abs(pairs[k].timestamp - pairs[i].timestamp - seconds);
+    };
+    if (pairs[i].timestamp + seconds > pairs.back().timestamp + kRounding) break;
+    later = std::max(later, i + 1);
+    // The stamps only grow, so the nearest one never lies before that of the pose before.
+    while (later + 1 < pairs.size() && miss(later + 1) <= miss(later)) ++later;
+    if (miss(later) <= kTolerance * seconds) errors.add(pairs[i], pairs[later]);
+  }
+  return errors.total();
+}
+
 TrajectoryMetrics evaluate_trajectory(const Trajectory& estimate, const Trajectory& truth,
                                       double max_difference) {
   const std::vector<PosePair> pairs = associate(estimate, truth, max_difference);
@@ -130,7 +162,8 @@ TrajectoryMetrics evaluate_trajectory(const Trajectory& estimate, const Trajecto
     errors.push_back((metrics.alignment * pair.estimate.translation() - pair.truth.translation()).norm());
   }
   metrics.ate = statistics(std::move(errors));
-  measure_relative_errors(pairs, metrics);
+  metrics.rpe_frame = consecutive_error(pairs);
+  metrics.rpe_second = relative_error(pairs, 1.0);
   return metrics;
 }
 

@@ -122,6 +122,7 @@ const FrameReport& Slam::feed(const Frame& frame) {
     if (report.keyframe) s.map_newest(report);
   }
   report.gaussians = s.engine.size();
+  report.device_bytes = s.engine.device_bytes();
   s.reports.push_back(report);
   return s.reports.back();
 }
@@ -130,6 +131,7 @@ void Slam::finish() {
   Implementation& s = *implementation_;
   if (s.newest && !s.reports.back().lost) s.map_newest(s.reports.back());
   s.release_newest();
+  if (!s.reports.empty()) s.reports.back().device_bytes = s.engine.device_bytes();
 }
 
 bool Slam::Implementation::wants_keyframe(const FrameReport& report) const {

@@ -128,4 +128,8 @@ EngineReport SplatEngine::report() const {
           .validation_messages = device.validation_messages()};
 }
 
+uint64_t SplatEngine::device_bytes() const {
+  return implementation_->device.memory_in_use();
+}
+
 }  // namespace surefield

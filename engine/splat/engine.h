@@ -149,6 +149,8 @@ class SplatEngine {
   DensifyResult densify(const DensifySettings& settings);
 
   EngineReport report() const;
+  /// Device memory in use now.
+  uint64_t device_bytes() const;
 
  private:
   struct Implementation;

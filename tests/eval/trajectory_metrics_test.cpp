@@ -60,8 +60,8 @@ TEST_CASE("the same curve in another world has no error, and the alignment is fo
   CHECK(metrics.estimates == 50);
   CHECK(metrics.ate.rmse < 1e-12);
   CHECK(metrics.ate.max < 1e-12);
-  CHECK(metrics.rpe_translation < 1e-12);
-  CHECK(metrics.rpe_rotation < 1e-6);
+  CHECK(metrics.rpe_frame.translation < 1e-12);
+  CHECK(metrics.rpe_frame.rotation < 1e-6);
   CHECK(metrics.alignment.isApprox(some_motion().inverse(), 1e-9));
 }
 
@@ -78,7 +78,7 @@ TEST_CASE("errors do not depend on the worlds of either trajectory") {
   CHECK(a.ate.rmse > 0.05);
   CHECK(a.ate.rmse == doctest::Approx(b.ate.rmse).epsilon(1e-9));
   CHECK(a.ate.median == doctest::Approx(b.ate.median).epsilon(1e-9));
-  CHECK(a.rpe_translation == doctest::Approx(b.rpe_translation).epsilon(1e-9));
+  CHECK(a.rpe_frame.translation == doctest::Approx(b.rpe_frame.translation).epsilon(1e-9));
 }
 
 TEST_CASE("a scaled square shows its error: scale is not aligned") {
@@ -96,8 +96,8 @@ TEST_CASE("a scaled square shows its error: scale is not aligned") {
   CHECK(metrics.ate.mean == doctest::Approx(expected));
   CHECK(metrics.ate.median == doctest::Approx(expected));
   CHECK(metrics.ate.max == doctest::Approx(expected));
-  CHECK(metrics.rpe_translation == doctest::Approx(0.2));  // each side is 2.2 instead of 2
-  CHECK(metrics.rpe_rotation == doctest::Approx(0));
+  CHECK(metrics.rpe_frame.translation == doctest::Approx(0.2));  // each side is 2.2 instead of 2
+  CHECK(metrics.rpe_frame.rotation == doctest::Approx(0));
 }
 
 TEST_CASE("one outlier: mean, median, RMSE and largest error of four points on a line") {
@@ -122,7 +122,7 @@ TEST_CASE("one outlier: mean, median, RMSE and largest error of four points on a
   const TrajectoryMetrics spike = evaluate_trajectory(spiked, curve);
   CHECK(spike.ate.max > 0.9);
   CHECK(spike.ate.median < 0.05);
-  CHECK(spike.rpe_translation == doctest::Approx(std::sqrt(2.0 / 100)).epsilon(1e-6));
+  CHECK(spike.rpe_frame.translation == doctest::Approx(std::sqrt(2.0 / 100)).epsilon(1e-6));
 }
 
 TEST_CASE("RPE of a constant turn") {
@@ -136,7 +136,7 @@ TEST_CASE("RPE of a constant turn") {
         Eigen::AngleAxisd(0.1 * i, Eigen::Vector3d::UnitX()).toRotationMatrix();
   }
   const TrajectoryMetrics metrics = evaluate_trajectory(estimate, truth);
-  CHECK(metrics.rpe_rotation == doctest::Approx(0.1));
+  CHECK(metrics.rpe_frame.rotation == doctest::Approx(0.1));
   CHECK(metrics.ate.rmse < 1e-9);
 }
 
@@ -181,4 +181,57 @@ TEST_CASE("degenerate trajectories give finite errors: standing still, and a str
   CHECK(metrics.ate.mean == doctest::Approx(0.12));
   CHECK(metrics.ate.median == doctest::Approx(0.1));
   CHECK(metrics.ate.max == doctest::Approx(0.2));
+}
+
+TEST_CASE("RPE over a second pairs each pose with the one a second later, and skips gaps") {
+  // At 10 Hz along x, the estimate 1 % too long: 0.1 m a second at 10 m/s, a tenth of it from frame to frame.
+  Trajectory truth;
+  Trajectory estimate;
+  for (int i = 0; i < 31; ++i) {
+    const double jitter = i % 2 == 0 ? 0.004 : -0.004;
+    truth.push_back(at(0.1 * i + jitter, {1.0 * i, std::sin(i), 0}));
+    estimate.push_back(at(0.1 * i + jitter, {1.01 * i, std::sin(i), 0}));
+  }
+  const TrajectoryMetrics metrics = evaluate_trajectory(estimate, truth);
+  CHECK(metrics.rpe_frame.motions == 30);
+  CHECK(metrics.rpe_frame.translation == doctest::Approx(0.01));
+  CHECK(metrics.rpe_second.motions == 21);
+  CHECK(metrics.rpe_second.translation == doctest::Approx(0.1));
+  // Without frames 10 to 21 no two of those left lie 0.9 to 1.1 s apart.
+  estimate.erase(estimate.begin() + 10, estimate.begin() + 22);
+  const TrajectoryMetrics gap = evaluate_trajectory(estimate, truth);
+  CHECK(gap.rpe_frame.motions == 18);
+  CHECK(gap.rpe_second.motions == 0);
+  CHECK(gap.rpe_second.translation == 0);
+}
+
+TEST_CASE("RPE over a second of a turn adds the turns of its frames") {
+  Trajectory truth;
+  Trajectory estimate;
+  for (int i = 0; i < 61; ++i) {
+    truth.push_back(at(i / 30.0, {0.1 * i, 0.02 * i * i, 0}));
+    estimate.push_back(truth.back());
+    estimate.back().camera_to_world.linear() =
+        Eigen::AngleAxisd(0.01 * i, Eigen::Vector3d::UnitY()).toRotationMatrix();
+  }
+  const TrajectoryMetrics metrics = evaluate_trajectory(estimate, truth);
+  CHECK(metrics.rpe_frame.rotation == doctest::Approx(0.01));
+  CHECK(metrics.rpe_second.rotation == doctest::Approx(0.3));
+  CHECK(metrics.rpe_second.motions == 31);
+}
+
+TEST_CASE("true poses that are unknown are skipped, by ATE and by both RPE") {
+  Trajectory truth = make_curve(50);
+  Trajectory estimate = truth;
+  estimate[7].camera_to_world.translation() += Eigen::Vector3d(100, 0, 0);  // would spoil everything
+  truth[7] = unknown(7);
+  truth[20].camera_to_world.matrix().setConstant(std::numeric_limits<double>::quiet_NaN());
+  const TrajectoryMetrics metrics = evaluate_trajectory(estimate, truth);
+  CHECK(metrics.pairs == 48);
+  CHECK(metrics.estimates == 50);
+  CHECK(metrics.ate.max < 1e-9);
+  CHECK(metrics.rpe_frame.translation < 1e-9);
+  // The stamps are whole seconds here: 49 steps, less the two into and out of each gap.
+  CHECK(metrics.rpe_second.motions == 45);
+  CHECK(metrics.rpe_second.translation < 1e-9);
 }
