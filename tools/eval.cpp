@@ -1,4 +1,4 @@
-// surefield eval: how far a trajectory is from the truth.
+// surefield eval: how far a run, or any trajectory, is from the truth.
 #include <fmt/format.h>
 
 #include <filesystem>
@@ -8,6 +8,7 @@
 #include "engine/io/error.h"
 #include "engine/io/files.h"
 #include "tools/command.h"
+#include "tools/eval_run.h"
 #include "tools/trajectory_report.h"
 
 namespace surefield {
@@ -15,19 +16,27 @@ namespace surefield {
 namespace {
 
 constexpr const char* kExamples =
-    "The trajectory is aligned to the truth by a rigid transform (Horn, no scale); poses are paired where "
+    "With --run, the results of surefield run are measured: the trajectory, and the map's images of all "
+    "frames\n"
+    "and of those that were no keyframes; runtime and memory are shown beside them. With --trajectory, any "
+    "two\n"
+    "trajectories are compared, of whatever system.\n"
+    "Trajectories are aligned to the truth by a rigid transform (Horn, no scale); poses are paired where "
     "their\n"
-    "time stamps are at most 0.02 s apart. The errors are defined in docs/evaluation.md.\n"
+    "time stamps are at most 0.02 s apart. All measures are defined in docs/evaluation.md.\n"
     "\n"
     "Examples:\n"
-    "  surefield eval --trajectory out/desk/trajectory.txt --ground-truth rgbd_dataset_freiburg1_desk\n"
+    "  surefield eval --run out/desk\n"
+    "  surefield eval --run out/desk --dataset rgbd_dataset_freiburg1_desk --lpips alex.onnx --json "
+    "errors.json\n"
+    "  surefield eval --trajectory CameraTrajectory.txt --ground-truth rgbd_dataset_freiburg1_desk\n"
     "  surefield eval --trajectory out/desk/keyframes.txt --ground-truth groundtruth.txt --json "
     "errors.json\n";
 
 struct EvalOptions {
   std::string trajectory;
   std::string ground_truth;  ///< a TUM file or the folder of a dataset
-  std::string json;          ///< file to write; empty: none
+  EvalRunOptions run;        ///< its json is the file that either mode writes
 };
 
 Trajectory read_ground_truth(const std::string& path) {
@@ -37,28 +46,46 @@ Trajectory read_ground_truth(const std::string& path) {
   return *dataset->ground_truth();
 }
 
-int evaluate(const EvalOptions& options) {
+int compare_trajectories(const EvalOptions& options) {
   const Trajectory estimate = read_trajectory(options.trajectory);
   const TrajectoryMetrics metrics = evaluate_trajectory(estimate, read_ground_truth(options.ground_truth));
-  if (!options.json.empty()) {
+  if (!options.run.json.empty()) {
     nlohmann::ordered_json json = {{"schema", "surefield-trajectory"}, {"version", 1}};
     json.update(trajectory_json(metrics));
-    write_file(options.json, [&](std::ostream& stream) { stream << json.dump(2) << "\n"; });
+    write_file(options.run.json, [&](std::ostream& stream) { stream << json.dump(2) << "\n"; });
   }
   fmt::print("{}", trajectory_table(metrics));
   return kSuccess;
+}
+
+int evaluate(const EvalOptions& options) {
+  if (!options.run.run.empty()) return evaluate_run(options.run);
+  if (!options.trajectory.empty()) return compare_trajectories(options);
+  throw InputError("nothing to measure: give --run, or --trajectory; see surefield eval --help");
 }
 
 }  // namespace
 
 void add_eval(CLI::App& program, Action& action) {
   auto options = std::make_shared<EvalOptions>();
-  CLI::App* eval = program.add_subcommand("eval", "Measures the error of a trajectory against ground truth");
-  eval->add_option("--trajectory", options->trajectory, "Trajectory in TUM format")->required();
-  eval->add_option("--ground-truth", options->ground_truth,
-                   "True trajectory in TUM format, or the folder of a dataset")
-      ->required();
-  eval->add_option("--json", options->json, "Also writes the errors to this file");
+  CLI::App* eval =
+      program.add_subcommand("eval", "Measures a run, or a trajectory, against ground truth and images");
+  CLI::Option* run = eval->add_option("--run", options->run.run, "Folder of results of surefield run");
+  eval->add_option("--dataset", options->run.dataset,
+                   "Folder of the run's dataset, where it is no longer where it was")
+      ->needs(run);
+  eval->add_option("--lpips", options->run.lpips,
+                   "Network of the LPIPS distance, ONNX (docs/evaluation.md tells how to make it)")
+      ->needs(run);
+  eval->add_option("--device", options->run.engine.device,
+                   "Number or part of the name of the device, see surefield devices; default: the best");
+  CLI::Option* trajectory =
+      eval->add_option("--trajectory", options->trajectory, "Trajectory in TUM format")->excludes(run);
+  CLI::Option* truth = eval->add_option("--ground-truth", options->ground_truth,
+                                        "True trajectory in TUM format, or the folder of a dataset");
+  trajectory->needs(truth);
+  truth->needs(trajectory);
+  eval->add_option("--json", options->run.json, "Also writes what was measured to this file");
   eval->footer(kExamples);
   eval->callback([options, &action] { action = [options] { return evaluate(*options); }; });
 }

@@ -1,47 +1,118 @@
 #include "tools/map_quality.h"
 
-#include <algorithm>
+#include <fmt/format.h>
+
 #include <opencv2/core.hpp>
 
 #include "engine/eval/image_metrics.h"
+#include "engine/io/frame_stream.h"
 #include "tools/interrupt.h"
 
 namespace surefield {
 
 namespace {
 
-constexpr std::size_t kMostFrames = 60;
+/// The scores of one frame.
+struct FrameScores {
+  double psnr = 0;
+  double ssim = 0;
+  std::optional<double> depth_l1;
+  std::optional<double> lpips;
+};
 
-/// PSNR of the map rendered at `camera` against the frame's colour image.
-double frame_psnr(const Slam& slam, const Camera& camera, const Frame& frame) {
-  RenderImages images = slam.render(camera);
+FrameScores score(const QualityInput& input, const Camera& camera, const Frame& frame) {
+  RenderImages images = input.render(camera);
   cv::Mat rendered(images.height, images.width, CV_32FC3, images.colour.data());
   // What a screen would show: displays clamp.
   rendered = cv::max(0.0f, cv::min(1.0f, rendered));
+  const cv::Mat depth(images.height, images.width, CV_32FC1, images.depth_normalised.data());
   cv::Mat truth;
   frame.colour.convertTo(truth, CV_32FC3, 1.0 / 255);
-  return psnr(rendered, truth);
+  FrameScores scores{psnr(rendered, truth), ssim(rendered, truth),
+                     depth_l1(depth, frame.depth, input.depth_max), std::nullopt};
+  if (input.lpips) scores.lpips = input.lpips->distance(rendered, truth);
+  return scores;
+}
+
+/// Adds up the scores of frames.
+class ScoreSum {
+ public:
+  void add(const FrameScores& scores) {
+    ++sum_.frames;
+    sum_.psnr += scores.psnr;
+    sum_.ssim += scores.ssim;
+    add(sum_.lpips, scores.lpips);
+    add(sum_.depth_l1, scores.depth_l1);
+    depth_frames_ += scores.depth_l1 ? 1 : 0;
+  }
+
+  ImageScores mean() const {
+    ImageScores mean = sum_;
+    if (sum_.frames == 0) return mean;
+    mean.psnr /= sum_.frames;
+    mean.ssim /= sum_.frames;
+    if (mean.lpips) *mean.lpips /= sum_.frames;
+    if (mean.depth_l1) *mean.depth_l1 /= depth_frames_;
+    return mean;
+  }
+
+ private:
+  static void add(std::optional<double>& sum, const std::optional<double>& value) {
+    if (value) sum = sum.value_or(0) + *value;
+  }
+
+  ImageScores sum_;
+  int depth_frames_ = 0;
+};
+
+nlohmann::ordered_json scores_json(const ImageScores& scores) {
+  using Json = nlohmann::ordered_json;
+  const auto number = [&](double value) { return scores.frames > 0 ? Json(value) : Json(nullptr); };
+  Json json = {{"frames", scores.frames},
+               {"psnr_db", number(scores.psnr)},
+               {"ssim", number(scores.ssim)},
+               {"depth_l1_m", scores.depth_l1 ? Json(*scores.depth_l1) : Json(nullptr)}};
+  if (scores.lpips) json["lpips"] = *scores.lpips;
+  return json;
+}
+
+std::string scores_line(const char* title, const ImageScores& scores) {
+  std::string text = fmt::format("{:<16} PSNR {:.2f} dB, SSIM {:.4f}", title, scores.psnr, scores.ssim);
+  if (scores.depth_l1) text += fmt::format(", depth L1 {:.2f} cm", 100 * *scores.depth_l1);
+  if (scores.lpips) text += fmt::format(", LPIPS {:.4f}", *scores.lpips);
+  return text + fmt::format("   ({} frames)\n", scores.frames);
 }
 
 }  // namespace
 
-void measure_map_quality(RunRecord& record, const Slam& slam, const Dataset& dataset) {
-  const std::size_t fed = record.frames.size();
-  const std::size_t count = std::min(fed, kMostFrames);
-  double sum = 0;
-  int measured = 0;
-  for (std::size_t k = 0; k < count; ++k) {
-    if (interrupted()) return;
-    const std::size_t i = count < 2 ? 0 : k * (fed - 1) / (count - 1);
-    const LoadedFrame loaded = dataset.load(record.frames[i].index);
-    if (!loaded.frame || !record.trajectory[i].is_finite()) continue;
-    const Camera camera{record.intrinsics, record.trajectory[i].camera_to_world.inverse()};
-    sum += frame_psnr(slam, camera, resize_frame(*loaded.frame, record.selection.scale));
-    ++measured;
+std::optional<MapQuality> measure_map_quality(const QualityInput& input) {
+  ScoreSum all, held_out;
+  for (std::size_t i = 0; i < input.views.size(); ++i) {
+    if (interrupted()) return std::nullopt;
+    const QualityView& view = input.views[i];
+    const LoadedFrame loaded = input.dataset.load(view.index);
+    if (loaded.frame && view.camera.world_to_camera.matrix().allFinite()) {
+      const FrameScores scores = score(input, view.camera, resize_frame(*loaded.frame, input.scale));
+      all.add(scores);
+      if (!view.keyframe) held_out.add(scores);
+    }
+    if (input.progress) input.progress(i + 1);
   }
-  if (measured == 0) return;
-  record.psnr = sum / measured;
-  record.psnr_frames = measured;
+  const MapQuality quality{all.mean(), held_out.mean()};
+  return quality.all.frames > 0 ? std::optional(quality) : std::nullopt;
+}
+
+nlohmann::ordered_json quality_json(const std::optional<MapQuality>& quality) {
+  const MapQuality scores = quality.value_or(MapQuality{});
+  nlohmann::ordered_json json = scores_json(scores.all);
+  json["held_out"] = scores_json(scores.held_out);
+  return json;
+}
+
+std::string quality_table(const MapQuality& quality) {
+  std::string text = scores_line("images", quality.all);
+  if (quality.held_out.frames > 0) text += scores_line("no keyframes", quality.held_out);
+  return text;
 }
 
 }  // namespace surefield

@@ -72,4 +72,20 @@ std::string Progress::remaining() const {
   return fmt::format("{}:{:02}", seconds / 60, seconds % 60);
 }
 
+CountProgress::CountProgress(std::string what, int total)
+    : what_(std::move(what)), total_(std::max(1, total)), terminal_(isatty(STDERR_FILENO) == 1) {}
+
+CountProgress::~CountProgress() {
+  if (terminal_) fmt::print(stderr, "{}", kClearLine);
+}
+
+void CountProgress::reached(int done) {
+  if (terminal_) {
+    fmt::print(stderr, "{}{}/{} {}", kClearLine, done, total_, what_);
+    std::fflush(stderr);
+  } else if (10 * done / total_ != 10 * (done - 1) / total_) {
+    fmt::print(stderr, "{}/{} {}\n", done, total_, what_);
+  }
+}
+
 }  // namespace surefield

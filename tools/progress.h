@@ -38,4 +38,22 @@ class Progress {
   double first_frame_seconds_ = 0;  ///< the first frame takes far longer than the others
 };
 
+/// Shows on stderr how many of a number of things are done: a line that counts where that is a terminal, else
+/// a line for every tenth of them.
+class CountProgress {
+ public:
+  /// `what` is done `total` times.
+  CountProgress(std::string what, int total);
+  ~CountProgress();
+  CountProgress(const CountProgress&) = delete;
+  CountProgress& operator=(const CountProgress&) = delete;
+
+  void reached(int done);
+
+ private:
+  std::string what_;
+  int total_;
+  bool terminal_;
+};
+
 }  // namespace surefield

@@ -11,7 +11,8 @@ namespace {
 constexpr const char* kExamples =
     "Writes into the folder of --out: trajectory.txt and keyframes.txt (TUM format, camera to world), "
     "map.ply\n"
-    "(the Gaussians), metrics.json (docs/evaluation.md), config.yaml (every setting as used) and log.txt.\n"
+    "(the Gaussians), metrics.json and frames.csv (docs/evaluation.md), config.yaml (every setting as "
+    "used), log.txt.\n"
     "Ctrl-C finishes the current frame and saves everything; a second Ctrl-C quits at once.\n"
     "\n"
     "Examples:\n"

@@ -1,5 +1,7 @@
 #include "tools/run_configuration.h"
 
+#include <filesystem>
+
 #include "engine/io/error.h"
 #include "engine/synth/synthetic_dataset.h"
 #include "tools/build_info.h"
@@ -19,6 +21,12 @@ std::unique_ptr<Dataset> open_run_dataset(const RunOptions& options) {
                      "; leave --format out (a folder of that name is given as ./synthetic)");
   }
   return std::make_unique<SyntheticDataset>();
+}
+
+std::string dataset_path(const RunOptions& options) {
+  if (options.dataset == kSynthetic) return options.dataset;
+  const auto path = std::filesystem::weakly_canonical(options.dataset);
+  return (path.has_filename() ? path : path.parent_path()).string();
 }
 
 std::string load_settings(SlamSettings& settings, const RunOptions& options, const std::string& format) {

@@ -24,6 +24,9 @@ struct RunOptions {
 /// Opens the dataset that the options name. Throws InputError.
 std::unique_ptr<Dataset> open_run_dataset(const RunOptions& options);
 
+/// Where that dataset is, as it can be given to --dataset from any folder.
+std::string dataset_path(const RunOptions& options);
+
 /// Reads the settings that the options and the dataset's format ask for into `settings`; returns the
 /// effective configuration as YAML. Throws InputError.
 std::string load_settings(SlamSettings& settings, const RunOptions& options, const std::string& format);

@@ -33,10 +33,15 @@ const char* name(RunEnd end) {
 }
 
 Json dataset_json(const RunRecord& record) {
-  return {{"name", record.dataset},           {"format", record.format},
-          {"width", record.intrinsics.width}, {"height", record.intrinsics.height},
-          {"start", record.selection.start},  {"stride", record.selection.stride},
-          {"scale", record.selection.scale}};
+  return {{"name", record.dataset},
+          {"path", record.dataset_path},
+          {"format", record.format},
+          {"width", record.intrinsics.width},
+          {"height", record.intrinsics.height},
+          {"start", record.selection.start},
+          {"stride", record.selection.stride},
+          {"scale", record.selection.scale},
+          {"depth_max_m", record.depth_max}};
 }
 
 Json frames_json(const RunRecord& record) {
@@ -63,29 +68,6 @@ Json time_json(const RunRecord& record) {
           {"mapping_ms_per_iteration", mapping.milliseconds_each()}};
 }
 
-Json accuracy_json(const RunRecord& record) {
-  if (!record.accuracy) return nullptr;
-  Json json = trajectory_json(*record.accuracy);
-  json["keyframes_ate_rmse_m"] =
-      record.keyframe_accuracy ? Json(record.keyframe_accuracy->ate.rmse) : Json(nullptr);
-  return json;
-}
-
-Json frame_json(const FrameReport& frame) {
-  return {{"index", frame.index},
-          {"timestamp_s", frame.timestamp},
-          {"keyframe", frame.keyframe},
-          {"lost", frame.lost},
-          {"retries", frame.retries},
-          {"loss", frame.tracking_loss},
-          {"valid_fraction", frame.valid_fraction},
-          {"tracking_iterations", frame.tracking_iterations},
-          {"tracking_ms", frame.tracking_ms},
-          {"mapping_iterations", frame.mapping_iterations},
-          {"mapping_ms", frame.mapping_ms},
-          {"gaussians", frame.gaussians}};
-}
-
 }  // namespace
 
 std::string metrics_json(const RunRecord& record) {
@@ -103,9 +85,8 @@ std::string metrics_json(const RunRecord& record) {
                  {"megabytes", static_cast<double>(record.engine.map_bytes) / kMegabyte}};
   json["memory"] = {{"device_peak_mb", static_cast<double>(record.engine.device_peak_bytes) / kMegabyte},
                     {"host_peak_mb", host_peak_bytes() / kMegabyte}};
-  json["trajectory"] = accuracy_json(record);
-  json["images"] = {{"psnr_db", record.psnr ? Json(*record.psnr) : Json(nullptr)},
-                    {"frames", record.psnr_frames}};
+  json["trajectory"] = trajectory_json(record.accuracy, record.keyframe_accuracy);
+  json["images"] = quality_json(record.images);
   json["skipped"] = Json::array();
   for (const SkippedFrame& frame : record.skipped) {
     json["skipped"].push_back({{"index", frame.index}, {"reason", frame.reason}});

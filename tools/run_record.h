@@ -1,5 +1,6 @@
 #pragma once
 
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -7,6 +8,7 @@
 #include "engine/eval/trajectory_metrics.h"
 #include "engine/io/frame_stream.h"
 #include "engine/slam/slam.h"
+#include "tools/map_quality.h"
 
 namespace surefield {
 
@@ -18,10 +20,12 @@ struct RunRecord {
   RunEnd end = RunEnd::Completed;
   std::string error;  ///< why it failed
   std::string dataset;
+  std::string dataset_path;  ///< where it was read from, absolute; or "synthetic"
   std::string format;
   FrameSelection selection;
   int selected = 0;       ///< frames that were to be fed
   Intrinsics intrinsics;  ///< of the frames fed
+  double depth_max = 0;   ///< metres
   std::vector<SkippedFrame> skipped;
   std::vector<FrameReport> frames;  ///< those fed
   Trajectory trajectory;            ///< one pose per frame fed
@@ -31,8 +35,7 @@ struct RunRecord {
   EngineReport engine;
   std::optional<TrajectoryMetrics> accuracy;  ///< where there is ground truth
   std::optional<TrajectoryMetrics> keyframe_accuracy;
-  std::optional<double> psnr;  ///< dB
-  int psnr_frames = 0;
+  std::optional<MapQuality> images;
 
   /// Gaussians in the final map.
   uint32_t gaussians() const { return frames.empty() ? 0 : frames.back().gaussians; }
@@ -58,6 +61,12 @@ int count_frames(const std::vector<FrameReport>& frames, Test test) {
   for (const FrameReport& frame : frames) count += test(frame) ? 1 : 0;
   return count;
 }
+
+/// What is known about one frame; the keys are the columns of frames.csv too.
+nlohmann::ordered_json frame_json(const FrameReport& frame);
+
+/// frames.csv: a line of names, then one of numbers for every frame fed. Yes is 1, no is 0.
+std::string frames_csv(const std::vector<FrameReport>& frames);
 
 /// metrics.json, as docs/evaluation.md describes it.
 std::string metrics_json(const RunRecord& record);

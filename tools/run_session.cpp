@@ -27,6 +27,8 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
+constexpr std::size_t kMostCompared = 60;  // frames whose images are compared; surefield eval --run takes all
+
 double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
@@ -145,6 +147,7 @@ std::optional<TrajectoryMetrics> accuracy(const Trajectory& estimate, const Traj
 RunRecord start_record(const RunOptions& options, const Dataset& dataset, const FrameStream& stream) {
   RunRecord record;
   record.dataset = dataset.name();
+  record.dataset_path = dataset_path(options);
   record.format = dataset.format();
   record.selection = options.selection;
   record.selected = stream.size();
@@ -182,13 +185,33 @@ void complete_record(RunRecord& record, const Slam& slam, const Dataset& dataset
   record.keyframe_accuracy = accuracy(record.keyframes, dataset.ground_truth());
 }
 
+/// Compares the final map with the frames fed, or with kMostCompared evenly spaced ones where there are more.
+std::optional<MapQuality> measure_images(const RunRecord& record, const Slam& slam, const Dataset& dataset) {
+  QualityInput input{.dataset = dataset,
+                     .views = {},
+                     .scale = record.selection.scale,
+                     .depth_max = record.depth_max,
+                     .render = [&](const Camera& camera) { return slam.render(camera); }};
+  const std::size_t fed = record.frames.size();
+  const std::size_t count = std::min(fed, kMostCompared);
+  for (std::size_t k = 0; k < count; ++k) {
+    const std::size_t i = count < 2 ? 0 : k * (fed - 1) / (count - 1);
+    input.views.push_back({record.frames[i].index,
+                           {record.intrinsics, record.trajectory[i].camera_to_world.inverse()},
+                           record.frames[i].keyframe});
+  }
+  return measure_map_quality(input);
+}
+
 void save_results(Results& results, RunRecord& record, const Slam& slam, const Dataset& dataset) {
   results.save("trajectory.txt", [&](const auto& file) { write_trajectory(file, record.trajectory); });
   results.save("keyframes.txt", [&](const auto& file) { write_trajectory(file, record.keyframes); });
   results.save("map.ply", [&](const auto& file) { write_ply(file, slam.map()); });
   if (record.end == RunEnd::Completed) {
-    results.save("the image quality", [&](const auto&) { measure_map_quality(record, slam, dataset); });
+    results.save("the image quality",
+                 [&](const auto&) { record.images = measure_images(record, slam, dataset); });
   }
+  results.save("frames.csv", [&](const auto& file) { write_text(file, frames_csv(record.frames)); });
   results.save("metrics.json", [&](const auto& file) { write_text(file, metrics_json(record)); });
 }
 
@@ -226,6 +249,7 @@ int run_session(const RunOptions& options) {
   const std::string effective = load_settings(settings, options, dataset->format());
   FrameStream stream(*dataset, options.selection);
   RunRecord record = start_record(options, *dataset, stream);
+  record.depth_max = settings.depth_max;
   Results results(options.out);
   write_text(results.folder() / "config.yaml", effective);
 

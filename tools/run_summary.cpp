@@ -60,15 +60,16 @@ std::string run_summary(const RunRecord& record) {
   std::string text = frames_line(record);
   text += skipped_lines(record);
   if (record.accuracy) text += trajectory_table(*record.accuracy);
+  if (record.keyframe_accuracy) {
+    text += fmt::format("keyframes' ATE   {:.3f} cm\n", 100 * record.keyframe_accuracy->ate.rmse);
+  }
   text += fmt::format("speed            {:.2f} frames/s, {:.1f} s in all\n", record.frames_per_second(),
                       record.seconds);
   text += iterations_line("tracking", tracking_total(record.frames));
   text += iterations_line("mapping", mapping_total(record.frames));
   text += fmt::format("map              {} Gaussians, {:.1f} MB\n", record.gaussians(),
                       static_cast<double>(record.engine.map_bytes) / 1e6);
-  if (record.psnr) {
-    text += fmt::format("PSNR             {:.2f} dB over {} frames\n", *record.psnr, record.psnr_frames);
-  }
+  if (record.images) text += quality_table(*record.images);
   return text;
 }
 

@@ -24,6 +24,15 @@ nlohmann::ordered_json trajectory_json(const TrajectoryMetrics& metrics) {
   return json;
 }
 
+nlohmann::ordered_json trajectory_json(const std::optional<TrajectoryMetrics>& frames,
+                                       const std::optional<TrajectoryMetrics>& keyframes) {
+  if (!frames) return nullptr;
+  nlohmann::ordered_json json = trajectory_json(*frames);
+  json["keyframes_ate_rmse_m"] = nullptr;
+  if (keyframes) json["keyframes_ate_rmse_m"] = keyframes->ate.rmse;
+  return json;
+}
+
 std::string trajectory_table(const TrajectoryMetrics& metrics) {
   const auto centimetres = [](double metres) { return 100 * metres; };
   const auto relative = [&](const char* title, const RelativeError& error) {

@@ -6,6 +6,7 @@
 #include <sys/wait.h>
 
 #include <cstdlib>
+#include <set>
 
 #include "engine/io/files.h"
 
@@ -15,7 +16,8 @@ namespace {
 
 std::vector<std::string> with_device(std::vector<std::string> arguments) {
   const char* device = std::getenv("SUREFIELD_DEVICE");
-  const bool needs_one = !arguments.empty() && (arguments[0] == "run" || arguments[0] == "render");
+  const std::set<std::string> users = {"run", "render", "eval"};
+  const bool needs_one = !arguments.empty() && users.contains(arguments[0]);
   const bool has_one = std::find(arguments.begin(), arguments.end(), "--device") != arguments.end();
   if (device && needs_one && !has_one) arguments.insert(arguments.end(), {"--device", device});
   return arguments;

@@ -12,7 +12,7 @@
 namespace surefield::test {
 
 /// The `surefield` program, running. Its device is the one that the environment variable SUREFIELD_DEVICE
-/// names, where the arguments start with "run" or "render".
+/// names, where the arguments start with a command that takes one.
 class Program {
  public:
   /// Starts it; what it prints goes to files in `folder`. `file_limit`, in bytes, is the largest file that it

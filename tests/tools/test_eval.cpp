@@ -53,6 +53,53 @@ TEST_CASE("eval measures a known error, wherever the trajectory's world lies") {
   CHECK(json["rpe_rotation_rmse_rad"].get<double>() < 1e-6);
 }
 
+TEST_CASE("eval --run finds again what the run found, and needs no more than its folder") {
+  const TemporaryFolder folder;
+  const Outcome run = surefield_command(short_run(folder / "out"), folder.path());
+  REQUIRE_MESSAGE(run.code == 0, run.err);
+  const Outcome outcome =
+      surefield_command({"eval", "--run", folder / "out", "--json", folder / "out.json"}, folder.path());
+  REQUIRE_MESSAGE(outcome.code == 0, outcome.err);
+  CHECK(contains(outcome.out, "ATE RMSE"));
+  CHECK(contains(outcome.out, "no keyframes     PSNR"));
+  CHECK(contains(outcome.out, "tracking "));
+  const nlohmann::json metrics = read_json(folder / "out/metrics.json");
+  const nlohmann::json json = read_json(folder / "out.json");
+  CHECK(json["schema"] == "surefield-evaluation");
+  CHECK(json["images"]["held_out"]["frames"] == 1);
+  CHECK(json["memory"] == metrics["memory"]);
+  // Poses and map went through files of 9 digits and of floats.
+  for (const char* key : {"psnr_db", "ssim", "depth_l1_m"}) {
+    CAPTURE(key);
+    const double expected = metrics["images"][key];
+    CHECK(json["images"][key].get<double>() == doctest::Approx(expected).epsilon(1e-4));
+  }
+  CHECK(json["trajectory"]["ate_rmse_m"].get<double>() ==
+        doctest::Approx(metrics["trajectory"]["ate_rmse_m"].get<double>()).epsilon(1e-4));
+
+  CHECK(contains(
+      surefield_command({"eval", "--run", folder / "out", "--dataset", "/no/such"}, folder.path()).err,
+      "/no/such"));
+  folder.write("out/trajectory.txt", "0 0 0 0 0 0 0 1\n");
+  CHECK(contains(surefield_command({"eval", "--run", folder / "out"}, folder.path()).err,
+                 "trajectory.txt: has 1 poses, but metrics.json 3 frames"));
+}
+
+TEST_CASE("eval reads trajectories of other systems: comments, stamps apart from the truth's") {
+  const TemporaryFolder folder;
+  write_trajectory(folder / "truth.txt", square(0));
+  folder.write("other.txt",
+               "# timestamp tx ty tz qx qy qz qw\n"
+               "0.0121 -1 -1 0.02 0 0 0 1\n1.004 1 -1 -0.02 0 0 0 1\n"
+               "2.0 1 1 0.02 0 0 0 1\n2.99 -1 1 -0.02 0 0 0 1\n7 50 0 0 0 0 0 1\n");
+  const Outcome outcome = surefield_command(
+      {"eval", "--trajectory", folder / "other.txt", "--ground-truth", folder / "truth.txt"}, folder.path());
+  CHECK(outcome.code == 0);
+  CHECK(contains(outcome.out, "poses compared   4 of 5"));
+  CHECK(contains(outcome.out, "ATE RMSE         2.000 cm"));
+  CHECK(contains(outcome.out, "RPE per second   4.000 cm"));
+}
+
 TEST_CASE("eval names what it cannot compare") {
   const TemporaryFolder folder;
   write_trajectory(folder / "estimate.txt", square(0));
@@ -66,4 +113,7 @@ TEST_CASE("eval names what it cannot compare") {
   CHECK(contains(message(folder / "one.txt"), "surefield: error: "));
   CHECK(contains(message("/no/such"), "/no/such: no such file"));
   CHECK(contains(message(folder.path()), "no known dataset layout"));
+  CHECK(contains(surefield_command({"eval"}, folder.path()).err, "give --run, or --trajectory"));
+  CHECK(contains(surefield_command({"eval", "--run", folder.path()}, folder.path()).err,
+                 "is this a folder that surefield run has written?"));
 }

@@ -1,7 +1,9 @@
 #include <signal.h>
 
+#include <algorithm>
 #include <chrono>
 #include <set>
+#include <sstream>
 #include <thread>
 
 #include "engine/io/files.h"
@@ -92,8 +94,13 @@ TEST_CASE("a run leaves its results, and metrics of the documented schema") {
   CHECK(json["trajectory"]["pairs"] == 3);
   CHECK(json["time"]["frames_per_second"].get<double>() > 0);
   CHECK(json["memory"]["device_peak_mb"].get<double>() > json["map"]["megabytes"].get<double>());
+  CHECK(json["dataset"]["path"] == "synthetic");
+  CHECK(json["dataset"]["depth_max_m"] == 10);
   CHECK(json["images"]["frames"] == 3);
   CHECK(json["images"]["psnr_db"].get<double>() > 10);
+  CHECK(json["images"]["ssim"].get<double>() > 0.1);
+  CHECK(json["images"]["depth_l1_m"].get<double>() < 2);
+  CHECK(json["images"]["held_out"]["frames"] == 1);
   CHECK(json["per_frame"].size() == 3);
   // Every key is described.
   const std::string documentation = read_file(SUREFIELD_SOURCE_DIR "/docs/evaluation.md");
@@ -104,6 +111,37 @@ TEST_CASE("a run leaves its results, and metrics of the documented schema") {
 
       CHECK_MESSAGE(contains(documentation, "`" + key + "`"), key);
   }
+}
+
+TEST_CASE("frames.csv says of each frame what metrics.json says") {
+  const TemporaryFolder folder;
+  const Outcome outcome = surefield_command(short_run(folder / "out"), folder.path());
+  REQUIRE_MESSAGE(outcome.code == 0, outcome.err);
+  const nlohmann::ordered_json frames =
+      nlohmann::ordered_json::parse(read_file(folder / "out/metrics.json"))["per_frame"];
+  std::istringstream csv(read_file(folder / "out/frames.csv"));
+  std::string line;
+  std::getline(csv, line);
+  CHECK(line ==
+        "index,timestamp_s,keyframe,lost,retries,loss,valid_fraction,tracking_iterations,tracking_ms,"
+        "mapping_iterations,mapping_ms,gaussians,device_mb");
+  for (const auto& frame : frames) {
+    REQUIRE(std::getline(csv, line));
+    std::istringstream cells(line);
+    for (const auto& column : frame.items()) {
+      CAPTURE(column.key());
+      std::string cell;
+      std::getline(cells, cell, ',');
+      const auto& value = column.value();
+      const double expected = value.is_boolean() ? value.get<bool>() : value.get<double>();
+      CHECK(std::stod(cell) == expected);
+    }
+    CHECK(cells.eof());
+  }
+  CHECK_FALSE(std::getline(csv, line));
+  CHECK(frames[0]["keyframe"] == true);
+  CHECK(frames[1]["keyframe"] == false);
+  CHECK(frames[2]["device_mb"].get<double>() > 0);
 }
 
 TEST_CASE("[slow] the same run gives the same bytes, and a quiet one prints nothing") {
@@ -157,6 +195,8 @@ TEST_CASE("Ctrl-C saves everything and exits with 130") {
   CHECK(fed >= 2);
   CHECK(fed < 60);
   CHECK(read_trajectory(folder / "out/trajectory.txt").size() == fed);
+  const std::string csv = read_file(folder / "out/frames.csv");
+  CHECK(std::count(csv.begin(), csv.end(), '\n') == static_cast<std::ptrdiff_t>(fed) + 1);
   CHECK(read_ply(folder / "out/map.ply").cloud.size() == json["map"]["gaussians"]);
 }
 

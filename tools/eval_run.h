@@ -1,0 +1,22 @@
+#pragma once
+
+#include <string>
+
+#include "engine/splat/engine.h"
+
+namespace surefield {
+
+/// What `surefield eval --run` is asked to do.
+struct EvalRunOptions {
+  std::string run;      ///< folder of results
+  std::string dataset;  ///< where the run's own is no longer where it was; else empty
+  std::string lpips;    ///< ONNX file; empty: not measured
+  std::string json;     ///< file to write; empty: none
+  EngineOptions engine;
+};
+
+/// Measures the trajectory and the map of a finished run against its dataset, all frames of it; prints and
+/// writes what docs/evaluation.md describes. Returns the exit code. Throws InputError, gpu::Error.
+int evaluate_run(const EvalRunOptions& options);
+
+}  // namespace surefield

@@ -1,0 +1,98 @@
+#include "tools/run_folder.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <limits>
+
+#include "engine/io/error.h"
+#include "engine/io/files.h"
+#include "tools/run_configuration.h"
+
+namespace surefield {
+
+namespace {
+
+constexpr const char* kSchema = "surefield-metrics";
+constexpr int kVersion = 1;
+
+nlohmann::json read_metrics(const std::filesystem::path& file) {
+  if (!std::filesystem::exists(file)) {
+    throw InputError(file, "no such file; is this a folder that surefield run has written?");
+  }
+  nlohmann::json json = nlohmann::json::parse(read_file(file), nullptr, /*allow_exceptions=*/false);
+  if (!json.is_object() || json.value("schema", nlohmann::json()) != kSchema) {
+    throw InputError(file, "is no metrics file of surefield run");
+  }
+  if (json.value("version", nlohmann::json()) != kVersion) {
+    throw InputError(file, fmt::format("has another version than {}; run the sequence again", kVersion));
+  }
+  if (!json.contains("per_frame") || !json["per_frame"].is_array()) {
+    throw InputError(file, "says nothing about its frames; run the sequence again");
+  }
+  return json;
+}
+
+}  // namespace
+
+double RunFolder::number(const std::string& pointer) const {
+  const nlohmann::json::json_pointer at(pointer);
+  if (!metrics.contains(at) || !metrics[at].is_number()) return std::numeric_limits<double>::quiet_NaN();
+  return metrics[at].get<double>();
+}
+
+std::string RunFolder::text(const std::string& pointer) const {
+  const nlohmann::json::json_pointer at(pointer);
+  return metrics.contains(at) && metrics[at].is_string() ? metrics[at].get<std::string>() : "";
+}
+
+RunFolder read_run(const std::filesystem::path& folder) {
+  RunFolder run;
+  run.path = folder;
+  const auto whole = std::filesystem::weakly_canonical(folder);
+  run.name = (whole.has_filename() ? whole : whole.parent_path()).filename().string();
+  run.metrics = read_metrics(folder / "metrics.json");
+  run.trajectory = read_trajectory(folder / "trajectory.txt");
+  run.keyframes = read_trajectory(folder / "keyframes.txt");
+  run.configuration = read_file(folder / "config.yaml");
+  if (run.trajectory.size() != run.metrics["per_frame"].size()) {
+    throw InputError(folder / "trajectory.txt",
+                     fmt::format("has {} poses, but metrics.json {} frames; the files are of different runs",
+                                 run.trajectory.size(), run.metrics["per_frame"].size()));
+  }
+  return run;
+}
+
+std::unique_ptr<Dataset> open_dataset_of(const RunFolder& run, const std::string& instead) {
+  RunOptions options;
+  options.dataset = instead.empty() ? run.text("/dataset/path") : instead;
+  if (options.dataset.empty()) {
+    throw InputError(run.path / "metrics.json", "does not name the dataset; give it with --dataset");
+  }
+  if (instead.empty()) options.format = run.text("/dataset/format");
+  return open_run_dataset(options);
+}
+
+std::vector<QualityView> views_of(const RunFolder& run, const Dataset& dataset) {
+  const Intrinsics intrinsics = dataset.intrinsics().scaled(run.number("/dataset/scale"));
+  if (intrinsics.width != run.number("/dataset/width") ||
+      intrinsics.height != run.number("/dataset/height")) {
+    throw InputError(run.path,
+                     "was made from images of another size than those of dataset " + dataset.name());
+  }
+  std::vector<QualityView> views;
+  for (std::size_t i = 0; i < run.trajectory.size(); ++i) {
+    const nlohmann::json& frame = run.metrics["per_frame"][i];
+    QualityView view{frame.value("index", -1),
+                     {intrinsics, run.trajectory[i].camera_to_world.inverse()},
+                     frame.value("keyframe", false)};
+    if (view.index < 0 || view.index >= dataset.size()) {
+      throw InputError(run.path, fmt::format("has a frame {}, but dataset {} has {} frames", view.index,
+                                             dataset.name(), dataset.size()));
+    }
+    views.push_back(view);
+  }
+  return views;
+}
+
+}  // namespace surefield
