@@ -20,6 +20,13 @@ constexpr const char* kExamples =
     "  surefield run --dataset rgbd_dataset_freiburg1_desk --out out/desk --frames 100 --scale 0.5\n"
     "  surefield run --dataset Replica/room0 --out out/room0 --set tracking.iterations=40 --set seed=2\n";
 
+std::vector<std::string> known_formats() {
+  std::vector<std::string> formats = dataset_formats();
+  formats.insert(formats.begin(), "auto");
+  formats.push_back("synthetic");
+  return formats;
+}
+
 }  // namespace
 
 void add_run(CLI::App& program, Action& action) {
@@ -27,12 +34,12 @@ void add_run(CLI::App& program, Action& action) {
   CLI::App* run =
       program.add_subcommand("run", "Tracks the camera and builds the map of a recorded sequence");
   run->add_option("--dataset", options->dataset,
-                  "Folder of the sequence, or \"synthetic\" for the embedded one")
+                  "Folder of the sequence (or a .sens file), or \"synthetic\" for the embedded one")
       ->required();
   run->add_option("--out", options->out, "Folder of the results; files of an earlier run are overwritten")
       ->required();
   run->add_option("--format", options->format, "Layout of the dataset")
-      ->check(CLI::IsMember({"auto", "tum", "replica", "sevenscenes", "synthetic"}))
+      ->check(CLI::IsMember(known_formats()))
       ->capture_default_str();
   run->add_option("--config", options->config,
                   "YAML file, or the name of a built-in one; default: the built-in one of the format");

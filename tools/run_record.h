@@ -28,10 +28,10 @@ struct RunRecord {
   double depth_max = 0;   ///< metres
   std::vector<SkippedFrame> skipped;
   std::vector<FrameReport> frames;  ///< those fed
-  Trajectory trajectory;            ///< one pose per frame fed
-  Trajectory keyframes;
-  double setup_seconds = 0;  ///< opening the device, building its programs
-  double seconds = 0;        ///< from the first frame asked for to the last one done
+  Trajectory trajectory;            ///< one pose per frame fed, of the tracked camera
+  Trajectory keyframes;             ///< of the tracked camera
+  double setup_seconds = 0;         ///< opening the device, building its programs
+  double seconds = 0;               ///< from the first frame asked for to the last one done
   EngineReport engine;
   std::optional<TrajectoryMetrics> accuracy;  ///< where there is ground truth
   std::optional<TrajectoryMetrics> keyframe_accuracy;

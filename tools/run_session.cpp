@@ -181,8 +181,8 @@ void complete_record(RunRecord& record, const Slam& slam, const Dataset& dataset
   record.trajectory = slam.trajectory();
   record.keyframes = slam.keyframes();
   record.engine = slam.engine_report();
-  record.accuracy = accuracy(record.trajectory, dataset.ground_truth());
-  record.keyframe_accuracy = accuracy(record.keyframes, dataset.ground_truth());
+  record.accuracy = accuracy(of_reference_camera(record.trajectory, dataset), dataset.ground_truth());
+  record.keyframe_accuracy = accuracy(of_reference_camera(record.keyframes, dataset), dataset.ground_truth());
 }
 
 /// Compares the final map with the frames fed, or with kMostCompared evenly spaced ones where there are more.
@@ -204,8 +204,12 @@ std::optional<MapQuality> measure_images(const RunRecord& record, const Slam& sl
 }
 
 void save_results(Results& results, RunRecord& record, const Slam& slam, const Dataset& dataset) {
-  results.save("trajectory.txt", [&](const auto& file) { write_trajectory(file, record.trajectory); });
-  results.save("keyframes.txt", [&](const auto& file) { write_trajectory(file, record.keyframes); });
+  const auto save_trajectory = [&](const std::string& name, const Trajectory& trajectory) {
+    results.save(name,
+                 [&](const auto& file) { write_trajectory(file, of_reference_camera(trajectory, dataset)); });
+  };
+  save_trajectory("trajectory.txt", record.trajectory);
+  save_trajectory("keyframes.txt", record.keyframes);
   results.save("map.ply", [&](const auto& file) { write_ply(file, slam.map()); });
   if (record.end == RunEnd::Completed) {
     results.save("the image quality",

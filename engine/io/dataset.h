@@ -27,7 +27,7 @@ class Dataset {
   /// Name of the sequence, for reports; usually the name of its folder.
   virtual std::string name() const = 0;
 
-  /// "tum", "replica", "sevenscenes" or whatever an in-memory sequence calls itself.
+  /// "tum", "replica" or another of dataset_formats(), or whatever an in-memory sequence calls itself.
   virtual std::string format() const = 0;
 
   /// Number of frames, the unreadable ones included.
@@ -42,6 +42,9 @@ class Dataset {
   /// Seconds; the original frame index where the dataset has no stamps. 0 <= i < size().
   virtual double timestamp(int i) const = 0;
 
+  /// Seconds; when the depth image of frame `i` was taken, where the dataset says so, else timestamp(i).
+  virtual double depth_timestamp(int i) const { return timestamp(i); }
+
   /// Reads and undistorts frame `i` at the original size, 0 <= i < size(). A missing or corrupt image is no
   /// exception: the caller skips the frame, counts it and reports the problem. Depth is not cut at any
   /// maximum.
@@ -51,15 +54,31 @@ class Dataset {
   /// non-finite.
   virtual const Trajectory* ground_truth() const = 0;
 
+  /// From the tracked camera, whose images load() gives, to the camera that ground_truth() describes: a point
+  /// in the frame of the former becomes one in the frame of the latter. They differ where depth was
+  /// registered to a colour camera and the truth is that of the depth camera.
+  virtual Pose tracked_to_reference() const { return Pose::Identity(); }
+
   /// Things the user should know that do not stop the run, one line each.
   virtual std::vector<std::string> warnings() const { return {}; }
 };
 
-/// Opens the sequence in `folder`. `format` is "tum", "replica", "sevenscenes", or "auto" to recognise the
-/// layout. Reads lists, poses and calibration, not the images. Throws InputError naming what was looked for
-/// when the folder is missing, empty, of an unknown layout, or when a list, a pose or a calibration cannot be
-/// read.
-std::unique_ptr<Dataset> open_dataset(const std::filesystem::path& folder,
-                                      const std::string& format = "auto");
+/// The poses of the tracked camera as poses of the camera that the ground truth describes: what is written to
+/// disk and compared with the truth.
+Trajectory of_reference_camera(Trajectory tracked, const Dataset& dataset);
+
+/// The poses of the camera that the ground truth describes as poses of the tracked camera: those at which
+/// load()'s images were taken.
+Trajectory of_tracked_camera(Trajectory reference, const Dataset& dataset);
+
+/// The names of the layouts that open_dataset() reads: "tum", "replica", "sevenscenes", "scannet", "icl",
+/// "plain".
+std::vector<std::string> dataset_formats();
+
+/// Opens the sequence in the folder `path` (or the ScanNet file `path`, *.sens). `format` is one of
+/// dataset_formats(), or "auto" to recognise the layout. Reads lists, poses and calibration, not the images.
+/// Throws InputError naming what was looked for when the folder is missing, empty, of an unknown layout or of
+/// several, or when a list, a pose or a calibration cannot be read.
+std::unique_ptr<Dataset> open_dataset(const std::filesystem::path& path, const std::string& format = "auto");
 
 }  // namespace surefield

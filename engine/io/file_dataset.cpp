@@ -13,13 +13,6 @@ namespace surefield {
 
 namespace {
 
-std::string size_problem(const std::filesystem::path& file, const cv::Mat& image,
-                         const Intrinsics& expected) {
-  if (image.cols == expected.width && image.rows == expected.height) return {};
-  return fmt::format("{}: is {} x {} pixels, the calibration is for {} x {}", file.string(), image.cols,
-                     image.rows, expected.width, expected.height);
-}
-
 std::filesystem::path numbered_path(const std::filesystem::path& folder, const NumberedName& name,
                                     int number) {
   return folder / fmt::format("{}{:06}{}", name.prefix, number, name.suffix);
@@ -39,6 +32,24 @@ std::vector<StoredFrame> numbered_frames(const std::filesystem::path& folder, co
   return frames;
 }
 
+void require_size(const std::filesystem::path& file, const cv::Mat& image, const Intrinsics& expected) {
+  if (image.cols == expected.width && image.rows == expected.height) return;
+  throw InputError(file, fmt::format("is {} x {} pixels, the calibration is for {} x {}", image.cols,
+                                     image.rows, expected.width, expected.height));
+}
+
+cv::Size stored_size(const std::vector<StoredFrame>& frames) {
+  std::string problem = "no frame";
+  for (const StoredFrame& frame : frames) {
+    try {
+      return read_depth(frame.depth, {}).size();
+    } catch (const InputError& error) {
+      problem = error.what();
+    }
+  }
+  throw InputError("no depth image can be read; " + problem);
+}
+
 FileDataset::FileDataset(StoredSequence sequence) : sequence_(std::move(sequence)) {
   if (sequence_.distortion.empty()) return;
   const Intrinsics& k = sequence_.intrinsics;
@@ -54,18 +65,30 @@ LoadedFrame FileDataset::load(int i) const {
     Frame frame;
     frame.index = i;
     frame.timestamp = stored.timestamp;
-    frame.colour = read_colour(stored.colour);
-    frame.depth = read_depth(stored.depth, sequence_.depth_encoding);
-    loaded.problem = size_problem(stored.colour, frame.colour, sequence_.intrinsics);
-    if (loaded.problem.empty())
-      loaded.problem = size_problem(stored.depth, frame.depth, sequence_.intrinsics);
-    if (!loaded.problem.empty()) return loaded;
+    frame.colour = load_colour(stored.colour);
+    frame.depth = load_depth(stored.depth);
     if (!undistortion_x_.empty()) undistort(frame);
     loaded.frame = std::move(frame);
   } catch (const InputError& error) {
     loaded.problem = error.what();
   }
   return loaded;
+}
+
+cv::Mat FileDataset::load_colour(const std::filesystem::path& file) const {
+  cv::Mat colour = read_colour(file);
+  if (sequence_.resize_colour) {
+    cv::resize(colour, colour, cv::Size(sequence_.intrinsics.width, sequence_.intrinsics.height), 0, 0,
+               cv::INTER_AREA);
+  }
+  require_size(file, colour, sequence_.intrinsics);
+  return colour;
+}
+
+cv::Mat FileDataset::load_depth(const std::filesystem::path& file) const {
+  const cv::Mat depth = read_depth(file, sequence_.depth_encoding);
+  require_size(file, depth, sequence_.registration ? sequence_.registration->depth : sequence_.intrinsics);
+  return sequence_.registration ? register_depth(depth, *sequence_.registration) : depth;
 }
 
 const Trajectory* FileDataset::ground_truth() const {

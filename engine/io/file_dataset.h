@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "engine/io/dataset.h"
+#include "engine/io/depth_registration.h"
 #include "engine/io/images.h"
 
 namespace surefield {
@@ -16,6 +17,7 @@ struct StoredFrame {
   double timestamp = 0;  ///< seconds
   std::filesystem::path colour;
   std::filesystem::path depth;
+  std::optional<double> depth_timestamp = std::nullopt;  ///< seconds, where the depth image has its own
 };
 
 /// What a reader finds out about a sequence of image files.
@@ -25,6 +27,10 @@ struct StoredSequence {
   Intrinsics intrinsics;
   std::vector<double> distortion;  ///< OpenCV's k1 k2 p1 p2 k3; empty where the images have none
   DepthEncoding depth_encoding;
+  std::optional<DepthRegistration>
+      registration;                              ///< where the depth camera is another than the colour camera
+  bool resize_colour = false;                    ///< whether colour is averaged down to the depth's size
+  Pose tracked_to_reference = Pose::Identity();  ///< see Dataset::tracked_to_reference
   std::vector<StoredFrame> frames;
   std::optional<Trajectory> ground_truth;
   std::vector<std::string> warnings;
@@ -44,11 +50,17 @@ class FileDataset : public Dataset {
   double timestamp(int i) const override {
     return sequence_.frames.at(static_cast<std::size_t>(i)).timestamp;
   }
+  double depth_timestamp(int i) const override {
+    return sequence_.frames.at(static_cast<std::size_t>(i)).depth_timestamp.value_or(timestamp(i));
+  }
   LoadedFrame load(int i) const override;
   const Trajectory* ground_truth() const override;
+  Pose tracked_to_reference() const override { return sequence_.tracked_to_reference; }
   std::vector<std::string> warnings() const override { return sequence_.warnings; }
 
  private:
+  cv::Mat load_colour(const std::filesystem::path& file) const;
+  cv::Mat load_depth(const std::filesystem::path& file) const;
   void undistort(Frame& frame) const;
 
   StoredSequence sequence_;
@@ -68,16 +80,10 @@ struct NumberedName {
 std::vector<StoredFrame> numbered_frames(const std::filesystem::path& folder, const NumberedName& colour,
                                          const NumberedName& depth);
 
-/// The layouts: `is_...` tells from the names of files whether a folder has the layout, `k...Layout` says
-/// what is looked for, `read_..._sequence` throws InputError.
-bool is_tum(const std::filesystem::path& folder);
-bool is_replica(const std::filesystem::path& folder);
-bool is_sevenscenes(const std::filesystem::path& folder);
-inline constexpr const char* kTumLayout = "rgb.txt and depth.txt";
-inline constexpr const char* kReplicaLayout = "results/frame000000.jpg or .png";
-inline constexpr const char* kSevenScenesLayout = "frame-000000.color.jpg or .png";
-StoredSequence read_tum_sequence(const std::filesystem::path& folder);
-StoredSequence read_replica_sequence(const std::filesystem::path& folder);
-StoredSequence read_sevenscenes_sequence(const std::filesystem::path& folder);
+/// The size of the first depth image that can be read. Throws InputError where there is none.
+cv::Size stored_size(const std::vector<StoredFrame>& frames);
+
+/// Throws InputError, naming `file`, where an image has not the size of the calibration.
+void require_size(const std::filesystem::path& file, const cv::Mat& image, const Intrinsics& expected);
 
 }  // namespace surefield

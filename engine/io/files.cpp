@@ -113,4 +113,17 @@ std::map<int, std::filesystem::path> numbered_files(const std::filesystem::path&
   return files;
 }
 
+std::map<std::string, std::filesystem::path> images_by_stem(const std::filesystem::path& folder) {
+  std::map<std::string, std::filesystem::path> images;
+  if (!std::filesystem::is_directory(folder)) return images;
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+    std::string extension = entry.path().extension().string();
+    std::transform(extension.begin(), extension.end(), extension.begin(),
+                   [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + ('a' - 'A')) : c; });
+    if (extension != ".jpg" && extension != ".jpeg" && extension != ".png") continue;
+    images[entry.path().stem().string()] = entry.path();
+  }
+  return images;
+}
+
 }  // namespace surefield

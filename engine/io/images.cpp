@@ -20,8 +20,7 @@ bool is_truncated_jpeg(std::string_view bytes) {
   return end == std::string_view::npos || end < 3 || bytes.substr(end - 1, 2) != "\xff\xd9";
 }
 
-cv::Mat decode(const std::filesystem::path& file, int flags) {
-  const std::string bytes = read_file(file);
+cv::Mat decode(const std::filesystem::path& file, const std::string& bytes, int flags) {
   cv::Mat image;
   if (!bytes.empty() && !is_truncated_jpeg(bytes)) {
     try {
@@ -32,6 +31,10 @@ cv::Mat decode(const std::filesystem::path& file, int flags) {
   }
   if (image.empty()) throw InputError(file, "is not a readable image; it may be damaged or cut off");
   return image;
+}
+
+cv::Mat decode(const std::filesystem::path& file, int flags) {
+  return decode(file, read_file(file), flags);
 }
 
 void encode(const std::filesystem::path& file, const char* extension, const cv::Mat& image,
@@ -76,8 +79,12 @@ std::vector<double> read_rows(const JsonObject& object, const std::string& key) 
 }  // namespace
 
 cv::Mat read_colour(const std::filesystem::path& file) {
+  return decode_colour(read_file(file), file);
+}
+
+cv::Mat decode_colour(const std::string& bytes, const std::filesystem::path& name) {
   // The calibration is that of the stored pixels, so a rotation noted in the file must not be applied.
-  cv::Mat image = decode(file, cv::IMREAD_COLOR | cv::IMREAD_IGNORE_ORIENTATION);
+  cv::Mat image = decode(name, bytes, cv::IMREAD_COLOR | cv::IMREAD_IGNORE_ORIENTATION);
   cv::cvtColor(image, image, cv::COLOR_BGR2RGB);
   return image;
 }
@@ -86,6 +93,10 @@ cv::Mat read_depth(const std::filesystem::path& file, const DepthEncoding& encod
   const cv::Mat stored = decode(file, cv::IMREAD_UNCHANGED);
   if (stored.type() != CV_16UC1)
     throw InputError(file, "is no depth image; 16 bits and one channel are needed");
+  return depth_in_metres(stored, encoding);
+}
+
+cv::Mat depth_in_metres(const cv::Mat& stored, const DepthEncoding& encoding) {
   cv::Mat depth(stored.size(), CV_32FC1);
   for (int y = 0; y < stored.rows; ++y) {
     const auto* in = stored.ptr<uint16_t>(y);

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <opencv2/core.hpp>
+#include <string>
 
 #include "engine/splat/camera.h"
 
@@ -16,6 +17,12 @@ struct DepthEncoding {
 /// Reads an 8-bit colour image as CV_8UC3, RGB. Throws InputError when the file is missing or damaged,
 /// truncated JPEG files included.
 cv::Mat read_colour(const std::filesystem::path& file);
+
+/// The same from the `bytes` of an image file; `name` is what errors call it.
+cv::Mat decode_colour(const std::string& bytes, const std::filesystem::path& name);
+
+/// The numbers of a stored depth image, CV_16UC1, as CV_32FC1, metres, 0 where invalid.
+cv::Mat depth_in_metres(const cv::Mat& stored, const DepthEncoding& encoding);
 
 /// Reads a 16-bit depth PNG as CV_32FC1, metres, 0 where invalid. Throws InputError when the file is missing,
 /// damaged or not 16-bit with one channel.

@@ -1,9 +1,9 @@
 // Replica as rendered for iMAP and NICE-SLAM: results/frame%06d.jpg (or .png), results/depth%06d.png,
 // traj.txt, cam_params.json.
 #include "engine/io/error.h"
-#include "engine/io/file_dataset.h"
 #include "engine/io/files.h"
 #include "engine/io/json_file.h"
+#include "engine/io/layouts.h"
 
 namespace surefield {
 

@@ -1,19 +1,28 @@
 // 7-Scenes: frame-%06d.color.png (or .jpg), frame-%06d.depth.png, frame-%06d.pose.txt in one folder. Colour
-// and depth come from two cameras that are not registered; both are used with the depth camera's intrinsics,
-// which the poses describe.
+// and depth come from two cameras; depth is registered to the colour camera, which is the tracked one. The
+// poses describe the depth camera.
 #include <fmt/format.h>
 
 #include "engine/io/error.h"
-#include "engine/io/file_dataset.h"
 #include "engine/io/files.h"
+#include "engine/io/layouts.h"
 
 namespace surefield {
 
 namespace {
 
 constexpr Intrinsics kDepthCamera = {640, 480, 585, 585, 320, 240};
+constexpr Intrinsics kColourCamera = {640, 480, 525, 525, 320, 240};
 constexpr DepthEncoding kDepthEncoding = {0.001, 65535};
 constexpr const char* kPrefix = "frame-";
+
+/// The published calibration of the Kinect that recorded the sequences.
+Eigen::Isometry3d depth_to_colour() {
+  return *rigid_from_rows({0.999965180, 0.002676513, -0.007904101, -0.025558943,  //
+                           -0.002740931, 0.999963028, -0.008150452, 0.000101096,  //
+                           0.007881994, 0.008171833, 0.999935546, 0.002031832,    //
+                           0, 0, 0, 1});
+}
 
 /// A pose file holds a 4 x 4 camera-to-world matrix.
 StampedPose read_pose(int number, const std::filesystem::path& file) {
@@ -37,7 +46,9 @@ StoredSequence read_sevenscenes_sequence(const std::filesystem::path& folder) {
   StoredSequence sequence;
   sequence.name = folder.filename().string();
   sequence.format = "sevenscenes";
-  sequence.intrinsics = kDepthCamera;
+  sequence.intrinsics = kColourCamera;
+  sequence.registration = DepthRegistration{kDepthCamera, kColourCamera, depth_to_colour()};
+  sequence.tracked_to_reference = depth_to_colour().inverse();
   sequence.depth_encoding = kDepthEncoding;
   sequence.frames = numbered_frames(folder, {kPrefix, colour_suffix(folder)}, {kPrefix, ".depth.png"});
   Trajectory truth;

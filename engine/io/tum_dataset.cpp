@@ -7,9 +7,9 @@
 
 #include "engine/io/camera_file.h"
 #include "engine/io/error.h"
-#include "engine/io/file_dataset.h"
 #include "engine/io/files.h"
 #include "engine/io/json_file.h"
+#include "engine/io/layouts.h"
 
 namespace surefield {
 
@@ -127,7 +127,7 @@ StoredSequence read_tum_sequence(const std::filesystem::path& folder) {
   for (const ListedImage& colour : colours) {
     const ListedImage& depth = nearest(depths, colour.timestamp);
     if (std::abs(depth.timestamp - colour.timestamp) > kMaxStampDifference) continue;
-    sequence.frames.push_back({colour.timestamp, colour.file, depth.file});
+    sequence.frames.push_back({colour.timestamp, colour.file, depth.file, depth.timestamp});
   }
   const std::size_t lonely = colours.size() - sequence.frames.size();
   if (sequence.frames.empty()) {

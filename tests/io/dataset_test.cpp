@@ -126,7 +126,7 @@ TEST_CASE("7-Scenes RedKitchen: 300 frames and poses, 65535 is no depth") {
   CHECK(dataset->format() == "sevenscenes");
   CHECK(dataset->size() == 300);
   CHECK(dataset->depth_unit() == 0.001);
-  check_intrinsics(dataset->intrinsics(), {640, 480, 585, 585, 320, 240});
+  check_intrinsics(dataset->intrinsics(), {640, 480, 525, 525, 320, 240});
   REQUIRE(dataset->ground_truth());
   REQUIRE(dataset->ground_truth()->size() == 300);
   CHECK(dataset->ground_truth()->at(299).timestamp == 299);
