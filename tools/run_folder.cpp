@@ -80,11 +80,12 @@ std::vector<QualityView> views_of(const RunFolder& run, const Dataset& dataset) 
     throw InputError(run.path,
                      "was made from images of another size than those of dataset " + dataset.name());
   }
+  const Trajectory tracked = of_tracked_camera(run.trajectory, dataset);
   std::vector<QualityView> views;
-  for (std::size_t i = 0; i < run.trajectory.size(); ++i) {
+  for (std::size_t i = 0; i < tracked.size(); ++i) {
     const nlohmann::json& frame = run.metrics["per_frame"][i];
     QualityView view{frame.value("index", -1),
-                     {intrinsics, run.trajectory[i].camera_to_world.inverse()},
+                     {intrinsics, tracked[i].camera_to_world.inverse()},
                      frame.value("keyframe", false)};
     if (view.index < 0 || view.index >= dataset.size()) {
       throw InputError(run.path, fmt::format("has a frame {}, but dataset {} has {} frames", view.index,
