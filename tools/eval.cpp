@@ -8,6 +8,7 @@
 #include "engine/io/error.h"
 #include "engine/io/files.h"
 #include "tools/command.h"
+#include "tools/eval_mesh.h"
 #include "tools/eval_run.h"
 #include "tools/trajectory_report.h"
 
@@ -20,7 +21,10 @@ constexpr const char* kExamples =
     "frames\n"
     "and of those that were no keyframes; runtime and memory are shown beside them. With --trajectory, any "
     "two\n"
-    "trajectories are compared, of whatever system.\n"
+    "trajectories are compared, of whatever system. With --ground-truth-mesh, a mesh (surefield mesh) or "
+    "the\n"
+    "centres of the Gaussians are compared with a true surface: in the dataset's frame, or in that of "
+    "--run.\n"
     "Trajectories are aligned to the truth by a rigid transform (Horn, no scale); poses are paired where "
     "their\n"
     "time stamps are at most 0.02 s apart. All measures are defined in docs/evaluation.md.\n"
@@ -29,6 +33,7 @@ constexpr const char* kExamples =
     "  surefield eval --run out/desk\n"
     "  surefield eval --run out/desk --dataset rgbd_dataset_freiburg1_desk --lpips alex.onnx --json "
     "errors.json\n"
+    "  surefield eval --run out/office --mesh office.ply --ground-truth-mesh office/mesh.ply\n"
     "  surefield eval --trajectory CameraTrajectory.txt --ground-truth rgbd_dataset_freiburg1_desk\n"
     "  surefield eval --trajectory out/desk/keyframes.txt --ground-truth groundtruth.txt --json "
     "errors.json\n";
@@ -36,7 +41,8 @@ constexpr const char* kExamples =
 struct EvalOptions {
   std::string trajectory;
   std::string ground_truth;  ///< a TUM file or the folder of a dataset
-  EvalRunOptions run;        ///< its json is the file that either mode writes
+  EvalRunOptions run;        ///< its json is the file that every mode writes
+  EvalMeshOptions mesh;      ///< run, dataset and json are taken from `run`
 };
 
 Trajectory read_ground_truth(const std::string& path) {
@@ -58,10 +64,21 @@ int compare_trajectories(const EvalOptions& options) {
   return kSuccess;
 }
 
+int compare_with_true_mesh(const EvalOptions& options) {
+  EvalMeshOptions mesh = options.mesh;
+  mesh.run = options.run.run;
+  mesh.dataset = options.run.dataset;
+  mesh.json = options.run.json;
+  return evaluate_mesh(mesh);
+}
+
 int evaluate(const EvalOptions& options) {
+  if (!options.mesh.truth.empty()) return compare_with_true_mesh(options);
   if (!options.run.run.empty()) return evaluate_run(options.run);
   if (!options.trajectory.empty()) return compare_trajectories(options);
-  throw InputError("nothing to measure: give --run, or --trajectory; see surefield eval --help");
+  throw InputError(
+      "nothing to measure: give --run, or --trajectory, or --ground-truth-mesh; see surefield eval "
+      "--help");
 }
 
 }  // namespace
@@ -72,8 +89,8 @@ void add_eval(CLI::App& program, Action& action) {
       program.add_subcommand("eval", "Measures a run, or a trajectory, against ground truth and images");
   CLI::Option* run = eval->add_option("--run", options->run.run, "Folder of results of surefield run");
   eval->add_option("--dataset", options->run.dataset,
-                   "Folder of the run's dataset, where it is no longer where it was")
-      ->needs(run);
+                   "Folder of the run's dataset, where it is no longer where it was; beside "
+                   "--ground-truth-mesh also without a run");
   eval->add_option("--lpips", options->run.lpips,
                    "Network of the LPIPS distance, ONNX (docs/evaluation.md tells how to make it)")
       ->needs(run);
@@ -85,6 +102,7 @@ void add_eval(CLI::App& program, Action& action) {
                                         "True trajectory in TUM format, or the folder of a dataset");
   trajectory->needs(truth);
   truth->needs(trajectory);
+  add_mesh_options(*eval, options->mesh);
   eval->add_option("--json", options->run.json, "Also writes what was measured to this file");
   eval->footer(kExamples);
   eval->callback([options, &action] { action = [options] { return evaluate(*options); }; });
