@@ -25,6 +25,8 @@ void add_devices(CLI::App& program, Action& action);
 void add_run(CLI::App& program, Action& action);
 void add_eval(CLI::App& program, Action& action);
 void add_render(CLI::App& program, Action& action);
+void add_report(CLI::App& program, Action& action);
+void add_tables(CLI::App& program, Action& action);
 void add_mesh(CLI::App& program, Action& action);
 void add_bench(CLI::App& program, Action& action);
 

@@ -26,6 +26,8 @@ void add_commands(CLI::App& program, surefield::Action& action) {
   program.require_subcommand(1);
   surefield::add_run(program, action);
   surefield::add_eval(program, action);
+  surefield::add_report(program, action);
+  surefield::add_tables(program, action);
   surefield::add_render(program, action);
   surefield::add_mesh(program, action);
   surefield::add_bench(program, action);

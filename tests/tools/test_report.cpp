@@ -1,0 +1,138 @@
+#include <cmath>
+
+#include "engine/io/files.h"
+#include "engine/io/trajectory.h"
+#include "tests/report/markup.h"
+#include "tests/tools/support.h"
+
+using namespace surefield;
+using namespace surefield::test;
+
+namespace {
+
+/// What a run leaves, made up: a circle, without map and without dataset.
+void write_run(const TemporaryFolder& folder, const std::string& name, int frames) {
+  nlohmann::json metrics = {
+      {"schema", "surefield-metrics"},
+      {"version", 1},
+      {"status", "completed"},
+      {"error", nullptr},
+      {"program", {{"version", "0"}, {"commit", "none"}}},
+      {"device", {{"name", "a device"}, {"driver", ""}}},
+      {"dataset",
+       {{"name", "<loop> & co"},
+        {"path", "/no/such/loop"},
+        {"format", "tum"},
+        {"width", 64},
+        {"height", 48},
+        {"start", 0},
+        {"stride", 1},
+        {"scale", 1},
+        {"depth_max_m", 5}}},
+      {"frames", {{"total", frames}, {"fed", frames}, {"skipped", 0}, {"lost", 1}, {"keyframes", 10}}},
+      {"time", {{"total_s", 20}, {"tracking_s", 12}, {"mapping_s", 5}, {"frames_per_second", 7.25}}},
+      {"trajectory", {{"ate_rmse_m", 0.0123}, {"ate_max_m", 0.04}}},
+      {"images", {{"psnr_db", 31.25}}},
+      {"per_frame", nlohmann::json::array()}};
+  Trajectory trajectory;
+  for (int i = 0; i < frames; ++i) {
+    const double wave = std::sin(0.7 * i) + std::sin(0.033 * i * i);
+    metrics["per_frame"].push_back({{"index", i},
+                                    {"timestamp_s", i / 30.0},
+                                    {"keyframe", i % 15 == 0},
+                                    {"lost", i == 2},
+                                    {"loss", 0.05 + 0.01 * wave},
+                                    {"tracking_iterations", 30 + i % 7},
+                                    {"tracking_ms", 100 + 20 * wave},
+                                    {"mapping_ms", 300},
+                                    {"gaussians", 1000 * i},
+                                    {"device_mb", 100 + i}});
+    StampedPose pose;
+    pose.timestamp = i / 30.0;
+    pose.camera_to_world.translation() = Eigen::Vector3d(std::cos(0.02 * i), 0.1 * wave, std::sin(0.02 * i));
+    trajectory.push_back(pose);
+  }
+  folder.write(name + "/metrics.json", metrics.dump());
+  folder.write(name + "/config.yaml", "seed: 1\ntracking:\n  iterations: " + std::to_string(frames) + "\n");
+  write_trajectory(folder / (name + "/trajectory.txt"), trajectory);
+  write_trajectory(folder / (name + "/keyframes.txt"), {trajectory[0]});
+}
+
+std::string make_report(std::vector<std::string> arguments, const TemporaryFolder& folder) {
+  arguments.insert(arguments.begin(), "report");
+  arguments.insert(arguments.end(), {"--out", folder / "report.html"});
+  const Outcome outcome = surefield_command(arguments, folder.path());
+  REQUIRE_MESSAGE(outcome.code == 0, outcome.err);
+  return read_file(folder / "report.html");
+}
+
+void check_self_contained(const std::string& html) {
+  CHECK(nesting_problem(html) == "");
+  for (const char* reference : {"http", "<script", "<link", "url("}) {
+    CAPTURE(reference);
+    CHECK_FALSE(contains(html, reference));
+  }
+}
+
+}  // namespace
+
+TEST_CASE("a report needs neither dataset nor device, names are escaped, and 1000 frames stay small") {
+  const TemporaryFolder folder;
+  write_run(folder, "a<b>&c", 1000);
+  const std::string html = make_report({(folder / "a<b>&c").string()}, folder);
+  check_self_contained(html);
+  CHECK(html.size() < 1'000'000);
+  for (const char* part : {"<title>Surefield: a&lt;b&gt;&amp;c</title>", "&lt;loop&gt; &amp; co",
+                           "1000 of 1000 frames tracked, 1 lost", "1.23 cm", "31.2 dB", "7.25 frames/s",
+                           "ATE RMSE", "From above", "Tracking loss", "Time per stage", "frame 2 lost",
+                           "the dataset is not here", "iterations: 1000", "Gaussians in the map"}) {
+    CAPTURE(part);
+    CHECK(contains(html, part));
+  }
+  CHECK_FALSE(contains(html, "<loop>"));
+  CHECK_FALSE(contains(html, "<img"));
+}
+
+TEST_CASE("several runs stand side by side, with the settings in which they differ") {
+  const TemporaryFolder folder;
+  write_run(folder, "first", 40);
+  write_run(folder, "second", 60);
+  const std::string html = make_report({folder / "first", folder / "second"}, folder);
+  check_self_contained(html);
+  CHECK(contains(html, "<tr><th>tracking.iterations</th><td>40</td><td>60</td></tr>"));
+  CHECK_FALSE(contains(html, "<tr><th>seed</th>"));
+  CHECK(contains(html, "var(--run1)"));
+}
+
+TEST_CASE("a report shows errors against the truth, and renders beside the sensor's images") {
+  const TemporaryFolder folder;
+  const Outcome run = surefield_command(short_run(folder / "out"), folder.path());
+  REQUIRE_MESSAGE(run.code == 0, run.err);
+  const std::string html = make_report({folder / "out", "--frames", "0,2"}, folder);
+  check_self_contained(html);
+  for (const char* part : {"ground truth", "Position error", "Rotation error", "frame 0</h3>", "frame 2</h3>",
+                           "depth error (mean", "src=\"data:image/jpeg;base64,"}) {
+    CAPTURE(part);
+    CHECK(contains(html, part));
+  }
+  CHECK_FALSE(contains(html, "frame 1</h3>"));
+  const Outcome wrong = surefield_command(
+      {"report", folder / "out", "--frames", "7", "--out", folder / "no.html"}, folder.path());
+  CHECK(wrong.code == 2);
+  CHECK(contains(wrong.err, "has no frame 7"));
+  CHECK_FALSE(std::filesystem::exists(folder / "no.html"));
+}
+
+TEST_CASE("report names what is no run") {
+  const TemporaryFolder folder;
+  const auto message = [&](const std::string& path) {
+    const Outcome outcome = surefield_command({"report", path}, folder.path());
+    CHECK(outcome.code == 2);
+    return outcome.err;
+  };
+  CHECK(contains(message("/no/such"), "is this a folder that surefield run has written?"));
+  folder.write("odd/metrics.json", "{}");
+  CHECK(contains(message(folder / "odd"), "metrics.json: is no metrics file of surefield run"));
+  folder.write("old/metrics.json", R"({"schema": "surefield-metrics", "version": 0})");
+  CHECK(contains(message(folder / "old"), "another version"));
+}

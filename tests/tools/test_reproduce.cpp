@@ -1,0 +1,153 @@
+#include <sys/wait.h>
+
+#include <cstdlib>
+
+#include "engine/io/files.h"
+#include "engine/io/images.h"
+#include "tests/tools/support.h"
+
+using namespace surefield;
+using namespace surefield::test;
+
+namespace {
+
+/// A sequence in the layout of Replica that takes no time: three frames of a wall with colours on it.
+void write_wall(const TemporaryFolder& folder, const std::string& name) {
+  constexpr int kWidth = 32, kHeight = 24;
+  folder.write(
+      name + "/cam_params.json",
+      R"({"camera": {"w": 32, "h": 24, "fx": 30, "fy": 30, "cx": 15.5, "cy": 11.5, "scale": 1000}})");
+  std::filesystem::create_directories(folder / (name + "/results"));
+  std::string poses;
+  for (int i = 0; i < 3; ++i) {
+    cv::Mat colour(kHeight, kWidth, CV_8UC3);
+    for (int v = 0; v < kHeight; ++v)
+      for (int u = 0; u < kWidth; ++u)
+        colour.at<cv::Vec3b>(v, u) =
+            cv::Vec3b(static_cast<uchar>(8 * (u + i)), static_cast<uchar>(10 * v), 90);
+    const std::string number = "00000" + std::to_string(i);
+    write_png(folder / (name + "/results/depth" + number + ".png"),
+              cv::Mat(kHeight, kWidth, CV_16UC1, cv::Scalar(2000)));
+    // The reader goes by what is in the file, not by its name.
+    write_png(folder / (name + "/results/colour.png"), colour);
+    std::filesystem::rename(folder / (name + "/results/colour.png"),
+                            folder / (name + "/results/frame" + number + ".jpg"));
+    poses += "1 0 0 " + std::to_string(0.067 * i) + " 0 1 0 0 0 0 1 0 0 0 0 1\n";
+  }
+  folder.write(name + "/traj.txt", poses);
+}
+
+/// Runs tools/reproduce with the program under test.
+Outcome reproduce(const TemporaryFolder& folder, const std::string& arguments) {
+  const char* device = std::getenv("SUREFIELD_DEVICE");
+  const std::string own =
+      " -- --quiet --set first_iterations=2 --set first_tracking_iterations=2 --set tracking.iterations=2" +
+      std::string(" --set mapping_iterations=1") + (device ? std::string(" --device '") + device + "'" : "");
+  const std::string command = "SUREFIELD='" SUREFIELD_PROGRAM "' bash '" SUREFIELD_SOURCE_DIR
+                              "/tools/reproduce' " +
+                              arguments + (arguments.starts_with("--help") ? "" : own) + " >'" +
+                              (folder / "out.txt").string() + "' 2>'" + (folder / "err.txt").string() + "'";
+  const int status = std::system(command.c_str());
+  return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read_file(folder / "out.txt"),
+          read_file(folder / "err.txt")};
+}
+
+/// The cells of the row that starts with `method` below the heading `title`.
+std::string row_of(const std::string& tables, const std::string& title, const std::string& method) {
+  const std::size_t heading = tables.find("## " + title);
+  REQUIRE(heading != std::string::npos);
+  const std::size_t row = tables.find("| " + method + " |", heading);
+  REQUIRE(row != std::string::npos);
+  return tables.substr(row, tables.find('\n', row) - row);
+}
+
+}  // namespace
+
+TEST_CASE("reproduce runs what it finds, resumes, and puts its results beside the published ones") {
+  const TemporaryFolder folder;
+  write_wall(folder, "data/Replica/room0");
+  const std::string arguments = "tracking-replica runtime --data '" + (folder / "data").string() +
+                                "' --out '" + (folder / "out").string() + "' --seeds 2";
+  const Outcome first = reproduce(folder, arguments);
+  REQUIRE_MESSAGE(first.code == 0, first.err, first.out);
+  CHECK(contains(first.out, "== replica/room0/full/seed2\n"));
+  CHECK(contains(first.out, "== replica/office0: left out, no such sequence in"));
+  const std::string tables = read_file(folder / "out/tables.md");
+  CHECK(row_of(tables, "Tracking on Replica", "CG-SLAM") ==
+        "| CG-SLAM | 0.29 | 0.27 | 0.25 | 0.33 | 0.14 | 0.28 | 0.31 | 0.29 | 0.27 |");
+  const std::string own = row_of(tables, "Tracking on Replica", "**Surefield**");
+  CHECK(contains(own, " ± "));
+  CHECK(own.ends_with(" | - | - | - | - | - | - | - | - |"));  // seven scenes and the mean were not run
+  CHECK(contains(tables, "images of 32 x 24"));
+  CHECK(contains(tables, "- Surefield: 3 frames a run\n"));
+  CHECK_FALSE(contains(tables, "## Runtime"));  // nothing was run for it
+
+  const auto written =
+      std::filesystem::last_write_time(folder / "out/runs/replica/room0/full/seed1/metrics.json");
+  const Outcome second = reproduce(folder, arguments);
+  CHECK(second.code == 0);
+  CHECK(contains(second.out, "== replica/room0/full/seed1: done before"));
+  CHECK(std::filesystem::last_write_time(folder / "out/runs/replica/room0/full/seed1/metrics.json") ==
+        written);
+  CHECK(read_file(folder / "out/tables.md") == tables);
+  // Other settings are another run.
+  const Outcome third = reproduce(folder, arguments + " --scale 0.5");
+  CHECK(third.code == 0);
+  CHECK_FALSE(contains(third.out, "done before"));
+  CHECK(contains(read_file(folder / "out/tables.md"), "images of 16 x 12"));
+}
+
+TEST_CASE("tables give mean and spread over seeds, and a mean over scenes only where all were run") {
+  const TemporaryFolder folder;
+  const auto write_run = [&](const std::string& place, double ate, const std::string& status = "completed") {
+    const nlohmann::json metrics = {
+        {"status", status},
+        {"program", {{"commit", "abc"}}},
+        {"device", {{"name", "a device"}}},
+        {"dataset", {{"width", 64}, {"height", 48}}},
+        {"trajectory", {{"ate_rmse_m", ate}}},
+        {"frames", {{"fed", 100}, {"keyframes", 20}}},
+        {"time", {{"tracking_ms_per_iteration", 2.5}, {"tracking_iterations", 1500}}}};
+    folder.write("runs/" + place + "/metrics.json", metrics.dump());
+  };
+  const std::vector<std::string> scenes = {"scene0000", "scene0059", "scene0106",
+                                           "scene0169", "scene0181", "scene0207"};
+  for (const std::string& scene : scenes) {
+    write_run("scannet/" + scene + "/full/seed1", 0.06);
+    write_run("scannet/" + scene + "/full/seed2", 0.08);
+  }
+  write_run("scannet/scene0000/full/seed3", 5, "interrupted");  // does not count
+  write_run("replica/office0/full/seed1", 0.01);
+  const Outcome outcome =
+      surefield_command({"tables", "--runs", folder / "runs", "--published",
+                         SUREFIELD_SOURCE_DIR "/tools/published.csv", "--out", folder / "tables.md"},
+                        folder.path());
+  REQUIRE_MESSAGE(outcome.code == 0, outcome.err);
+  const std::string tables = read_file(folder / "tables.md");
+  // sqrt(2) of spread for 6 and 8.
+  const std::string cell = " 7.00 ± 1.41 |";
+  std::string expected = "| **Surefield** |";
+  for (int i = 0; i < 7; ++i) expected += cell;
+  CHECK(row_of(tables, "Tracking on ScanNet", "**Surefield**") == expected);
+  CHECK(contains(row_of(tables, "Tracking on Replica", "**Surefield**"),
+                 "| - | - | - | 1.00 | - | - | - | - | - |"));
+  CHECK(contains(row_of(tables, "Runtime and memory on Replica office0", "**Surefield**"),
+                 "| 2.50 x 15 | - | 5.0 |"));
+  CHECK(contains(row_of(tables, "Runtime and memory on Replica office0", "CG-SLAM"),
+                 "| 7.89 x 15 | 12.2 x 60 | 30 | 8.5 | 231.66 |"));
+  CHECK(contains(surefield_command({"tables", "tracking-mars", "--runs", "x", "--published",
+                                    SUREFIELD_SOURCE_DIR "/tools/published.csv", "--out", folder / "t"},
+                                   folder.path())
+                     .err,
+                 "there is no table tracking-mars; there are tracking-replica"));
+}
+
+TEST_CASE("reproduce explains itself and refuses what it does not know") {
+  const TemporaryFolder folder;
+  const Outcome help = reproduce(folder, "--help");
+  CHECK(help.code == 0);
+  CHECK(contains(help.out, "Examples:"));
+  CHECK(contains(reproduce(folder, "tracking-mars").err, "there is no table tracking-mars"));
+  CHECK(contains(reproduce(folder, "--data /no/such").err, "--data /no/such is no folder"));
+  CHECK(reproduce(folder, "--seeds none").code == 2);
+}

@@ -1,0 +1,86 @@
+#include "tools/table_specs.h"
+
+namespace surefield {
+
+namespace {
+
+const std::vector<std::string> kReplica = {"room0",   "room1",   "room2",   "office0",
+                                           "office1", "office2", "office3", "office4"};
+
+const TableMetric kAte = {"ATE RMSE [cm]", 2, {"metrics.json", "/trajectory/ate_rmse_m", 100}};
+
+std::vector<TableMetric> image_metrics() {
+  return {{"PSNR [dB]", 2, {"metrics.json", "/images/psnr_db"}},
+          {"SSIM", 4, {"metrics.json", "/images/ssim"}},
+          {"Depth L1 [cm]", 2, {"metrics.json", "/images/depth_l1_m", 100}}};
+}
+
+std::vector<TableMetric> runtime_metrics() {
+  return {{"tracking [ms x it]",
+           2,
+           {"metrics.json", "/time/tracking_ms_per_iteration"},
+           NumberSource{"metrics.json", "/time/tracking_iterations"},
+           NumberSource{"metrics.json", "/frames/fed"}},
+          {"mapping [ms x it]",
+           2,
+           {"metrics.json", "/time/mapping_ms_per_iteration"},
+           NumberSource{"metrics.json", "/time/mapping_iterations"},
+           NumberSource{"metrics.json", "/frames/keyframes"}},
+          {"keyframe every",
+           1,
+           {"metrics.json", "/frames/fed"},
+           std::nullopt,
+           NumberSource{"metrics.json", "/frames/keyframes"}},
+          {"frames/s", 2, {"metrics.json", "/time/frames_per_second"}},
+          {"map [MB]", 2, {"metrics.json", "/map/megabytes"}},
+          {"device peak [MB]", 1, {"metrics.json", "/memory/device_peak_mb"}},
+          {"host peak [MB]", 1, {"metrics.json", "/memory/host_peak_mb"}}};
+}
+
+std::vector<TableSpec> make_specs() {
+  const TableVariant full{"full", "Surefield"};
+  const std::vector<std::string> tum = {"fr1_desk", "fr1_desk2", "fr1_room", "fr2_xyz", "fr3_office"};
+  const std::vector<std::string> scannet = {"scene0000", "scene0059", "scene0106",
+                                            "scene0169", "scene0181", "scene0207"};
+  const std::vector<std::string> synthetic = {"office", "apartment", "corridor", "hall"};
+  std::vector<TableMetric> own = image_metrics();
+  own.insert(own.begin(), kAte);
+  own.push_back({"frames/s", 2, {"metrics.json", "/time/frames_per_second"}});
+  return {{"tracking-replica", "Tracking on Replica", "replica", kReplica, {kAte}},
+          {"tracking-tum", "Tracking on TUM RGB-D", "tum", tum, {kAte}},
+          {"tracking-scannet", "Tracking on ScanNet", "scannet", scannet, {kAte}},
+          {"rendering", "Rendering on Replica, all frames", "replica", kReplica, image_metrics()},
+          {"runtime",
+           "Runtime and memory on Replica office0",
+           "replica",
+           {"office0"},
+           runtime_metrics(),
+           {full},
+           true},
+          {"ablation-isotropy",
+           "Without the isotropy loss, on Replica",
+           "replica",
+           kReplica,
+           {kAte},
+           {{"no-isotropy", "Surefield without L_iso"}, full}},
+          {"ablation-losses",
+           "Without the alignment and variance losses, mean over Replica",
+           "replica",
+           kReplica,
+           {kAte},
+           {{"no-align", "Surefield without L_align"},
+            {"no-variance", "Surefield without L_var"},
+            {"no-align-variance", "Surefield without L_align and L_var"},
+            full},
+           true},
+          {"synthetic", "Synthetic scenes", "synthetic", synthetic, own}};
+}
+
+}  // namespace
+
+const std::vector<TableSpec>& table_specs() {
+  static const std::vector<TableSpec> specs = make_specs();
+  return specs;
+}
+
+}  // namespace surefield
