@@ -1,9 +1,11 @@
+#include <fmt/format.h>
 #include <sys/wait.h>
 
 #include <cstdlib>
 
 #include "engine/io/files.h"
 #include "engine/io/images.h"
+#include "engine/io/triangle_mesh.h"
 #include "tests/tools/support.h"
 
 using namespace surefield;
@@ -40,9 +42,9 @@ void write_wall(const TemporaryFolder& folder, const std::string& name) {
 /// Runs tools/reproduce with the program under test.
 Outcome reproduce(const TemporaryFolder& folder, const std::string& arguments) {
   const char* device = std::getenv("SUREFIELD_DEVICE");
-  const std::string own =
-      " -- --quiet --set first_iterations=2 --set first_tracking_iterations=2 --set tracking.iterations=2" +
-      std::string(" --set mapping_iterations=1") + (device ? std::string(" --device '") + device + "'" : "");
+  const std::string own = (device ? std::string(" --device '") + device + "'" : "") +
+                          " -- --quiet --set first_iterations=2 --set first_tracking_iterations=2"
+                          " --set tracking.iterations=2 --set mapping_iterations=1";
   const std::string command = "SUREFIELD='" SUREFIELD_PROGRAM "' bash '" SUREFIELD_SOURCE_DIR
                               "/tools/reproduce' " +
                               arguments + (arguments.starts_with("--help") ? "" : own) + " >'" +
@@ -97,6 +99,24 @@ TEST_CASE("reproduce runs what it finds, resumes, and puts its results beside th
   CHECK(contains(read_file(folder / "out/tables.md"), "images of 16 x 12"));
 }
 
+TEST_CASE("reproduce measures surfaces where there is a true mesh, and says where there is none") {
+  const TemporaryFolder folder;
+  write_wall(folder, "data/room0");
+  write_wall(folder, "data/room1");
+  // The wall, 2 m before the cameras.
+  write_mesh(folder / "data/room0_mesh.ply",
+             {{{-3, -3, 2}, {3, -3, 2}, {3, 3, 2}, {-3, 3, 2}}, {}, {{0, 1, 2}, {0, 2, 3}}});
+  const Outcome outcome = reproduce(folder, "reconstruction --data '" + (folder / "data").string() +
+                                                "' --out '" + (folder / "out").string() + "'");
+  REQUIRE_MESSAGE(outcome.code == 0, outcome.err, outcome.out);
+  CHECK(contains(outcome.out, "== replica/room1: surfaces left out, no room1.ply or room1_mesh.ply in"));
+  const nlohmann::json json = read_json(folder / "out/runs/replica/room0/full/seed1/mesh.json");
+  const double accuracy = 100 * json["mesh"]["point_to_point"]["accuracy_m"].get<double>();
+  const std::string row = row_of(read_file(folder / "out/tables.md"), "Reconstruction on Replica",
+                                 "**Surefield** | Accuracy [cm]");
+  CHECK(contains(row, fmt::format("| {:.2f} | - |", accuracy)));
+}
+
 TEST_CASE("tables give mean and spread over seeds, and a mean over scenes only where all were run") {
   const TemporaryFolder folder;
   const auto write_run = [&](const std::string& place, double ate, const std::string& status = "completed") {
@@ -118,6 +138,9 @@ TEST_CASE("tables give mean and spread over seeds, and a mean over scenes only w
   }
   write_run("scannet/scene0000/full/seed3", 5, "interrupted");  // does not count
   write_run("replica/office0/full/seed1", 0.01);
+  const nlohmann::json surface = {{"accuracy_m", 0.0123}, {"completion_ratio_5cm", 0.9}};
+  folder.write("runs/replica/office0/full/seed1/mesh.json",
+               nlohmann::json{{"mesh", {{"point_to_point", surface}}}}.dump());
   const Outcome outcome =
       surefield_command({"tables", "--runs", folder / "runs", "--published",
                          SUREFIELD_SOURCE_DIR "/tools/published.csv", "--out", folder / "tables.md"},
@@ -131,6 +154,11 @@ TEST_CASE("tables give mean and spread over seeds, and a mean over scenes only w
   CHECK(row_of(tables, "Tracking on ScanNet", "**Surefield**") == expected);
   CHECK(contains(row_of(tables, "Tracking on Replica", "**Surefield**"),
                  "| - | - | - | 1.00 | - | - | - | - | - |"));
+  CHECK(contains(row_of(tables, "Reconstruction on Replica", "**Surefield** | Accuracy [cm]"),
+                 "| - | 1.23 | -"));
+  CHECK(contains(row_of(tables, "Reconstruction on Replica", "CG-SLAM | Accuracy [cm]"), "| 0.85 | 0.67 |"));
+  CHECK(contains(row_of(tables, "Reconstruction on Replica", "**Surefield** | Completion ratio < 5 cm [%]"),
+                 "| 90.00 |"));
   CHECK(contains(row_of(tables, "Runtime and memory on Replica office0", "**Surefield**"),
                  "| 2.50 x 15 | - | 5.0 |"));
   CHECK(contains(row_of(tables, "Runtime and memory on Replica office0", "CG-SLAM"),
