@@ -47,19 +47,19 @@ void add_passes(const std::vector<gpu::PassTime>& times, StepSamples* step) {
   for (PassSamples& pass : step->passes) pass.milliseconds.add(sums[pass.pass]);
 }
 
-/// A gradient for every pixel, of no meaning but with no zeros.
-std::vector<glsl::PixelGradient> some_gradients(uint64_t pixels) {
-  std::vector<glsl::PixelGradient> gradients(pixels);
+/// A gradient for every pixel, without meaning but with no zeros.
+std::vector<glsl::PixelUpstream> some_upstream(uint64_t pixels) {
+  std::vector<glsl::PixelUpstream> upstream(pixels);
   for (uint64_t i = 0; i < pixels; ++i) {
     const float x = std::sin(static_cast<float>(i % 1000)), y = std::cos(static_cast<float>(i % 777));
-    gradients[i] = {.colour = {x, y, x * y},
-                    .opacity = 0.5f * y,
-                    .depth = x,
-                    .depth_normalised = y,
-                    .depth_median = 0.1f * x,
-                    .uncertainty = 0.1f * y};
+    upstream[i] = {.colour = {x, y, x * y},
+                   .depth = x,
+                   .constant = 0.5f * y,
+                   .total = y,
+                   .median = 0.1f * x,
+                   .uncertainty = 0.1f * y};
   }
-  return gradients;
+  return upstream;
 }
 
 /// A scene on the device.
@@ -83,7 +83,7 @@ class SceneBench {
       rasteriser_.record_forward(recorder_, map_, view(), Outputs::All);
       recorder_.submit();
     } while (rasteriser_.lists.settle() == 0);
-    rasteriser_.pixel_gradients.upload(some_gradients(size_.pixels()));
+    rasteriser_.pixel_upstream.upload(some_upstream(size_.pixels()));
     recorder_.enable_timestamps();
   }
 

@@ -5,10 +5,9 @@ namespace surefield {
 namespace {
 
 constexpr uint32_t kWorkgroup = 64;
-constexpr uint32_t kStrip = 8;  // pixels per invocation, as in lib/ssim.glsl
 
 uint32_t strips(uint32_t length) {
-  return (length + kStrip - 1) / kStrip;
+  return (length + glsl::SSIM_STRIP - 1) / glsl::SSIM_STRIP;
 }
 
 }  // namespace
@@ -85,7 +84,7 @@ void Mapper::record_loss(gpu::Recorder& recorder, Rasteriser& rasteriser, const 
                      .row_slopes = row_slopes_,
                      .median_count = median_count_,
                      .ssim_partials = ssim_partials_,
-                     .pixel_gradients = rasteriser.pixel_gradients,
+                     .pixel_upstream = rasteriser.pixel_upstream,
                      .loss_partials = loss_partials_},
                     {.width = width,
                      .height = height,
@@ -94,7 +93,8 @@ void Mapper::record_loss(gpu::Recorder& recorder, Rasteriser& rasteriser, const 
                      .w_ssim = static_cast<float>(settings.weight_ssim),
                      .w_depth = static_cast<float>(settings.weight_depth),
                      .w_align = static_cast<float>(settings.weight_align),
-                     .w_variance = static_cast<float>(settings.weight_variance)});
+                     .w_variance = static_cast<float>(settings.weight_variance),
+                     .background = to_vec3(rasteriser.background)});
   recorder.dispatch(sum_losses_, 1, {.loss_partials = loss_partials_, .loss = loss},
                     {.count = column_strips});
 }

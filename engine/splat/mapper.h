@@ -26,7 +26,7 @@ class Mapper {
  public:
   explicit Mapper(gpu::Device& device);
 
-  /// Records render, mapping loss and dL/d(images): the gradient lands in rasteriser.pixel_gradients.
+  /// Records render, mapping loss and dL/d(images): the gradient lands in rasteriser.pixel_upstream.
   void record_loss(gpu::Recorder& recorder, Rasteriser& rasteriser, const GaussianMap& map,
                    const SensorFrame& frame, const gpu::Array<glsl::CameraState>& camera,
                    const MappingSettings& settings);

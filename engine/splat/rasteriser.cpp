@@ -9,10 +9,6 @@ namespace {
 
 constexpr uint32_t kReduceWorkgroup = 64;
 
-glsl::vec3 to_vec3(const Eigen::Vector3d& v) {
-  return {static_cast<float>(v.x()), static_cast<float>(v.y()), static_cast<float>(v.z())};
-}
-
 Eigen::Vector3d to_eigen(const glsl::vec3& v) {
   return {v.x, v.y, v.z};
 }
@@ -23,13 +19,17 @@ passes::blend_forward::Constants forward_constants(const TileShape& s, bool geom
 
 }  // namespace
 
+glsl::vec3 to_vec3(const Eigen::Vector3f& v) {
+  return {v.x(), v.y(), v.z()};
+}
+
 glsl::CameraState to_device(const Camera& camera) {
-  const Eigen::Matrix3d R = camera.world_to_camera.rotation();
+  const Eigen::Matrix3f R = camera.world_to_camera.rotation().cast<float>();
   const Intrinsics& k = camera.intrinsics;
   return {.rotation0 = to_vec3(R.row(0)),
           .rotation1 = to_vec3(R.row(1)),
           .rotation2 = to_vec3(R.row(2)),
-          .translation = to_vec3(camera.world_to_camera.translation()),
+          .translation = to_vec3(camera.world_to_camera.translation().cast<float>()),
           .fx = static_cast<float>(k.fx),
           .fy = static_cast<float>(k.fy),
           .cx = static_cast<float>(k.cx),
@@ -57,7 +57,7 @@ Rasteriser::Rasteriser(gpu::Device& device, const TileShape& shape)
       colour_opacity(device, "colour and opacity image"),
       geometry(device, "geometry image"),
       dominators(device, "dominator image"),
-      pixel_gradients(device, "pixel gradients"),
+      pixel_upstream(device, "pixel upstream"),
       gaussian_gradients(device, "Gaussian gradients"),
       sh_gradients(device, "SH gradients"),
       pose_gradient(device, "pose gradient"),
@@ -96,7 +96,7 @@ void Rasteriser::record_forward(gpu::Recorder& recorder, const GaussianMap& map,
   recorder.reserve(colour_opacity, view.size.pixels());
   recorder.reserve(geometry, view.size.pixels());
   recorder.reserve(dominators, view.size.pixels());
-  recorder.reserve(pixel_gradients, view.size.pixels());
+  recorder.reserve(pixel_upstream, view.size.pixels());
   lists.record(recorder, map, view.camera, view.size);
   recorder.dispatch(outputs == Outputs::All ? forward_all_ : forward_, lists.tiles_x(view.size),
                     lists.tiles_y(view.size),
@@ -108,7 +108,7 @@ void Rasteriser::record_forward(gpu::Recorder& recorder, const GaussianMap& map,
                      .colour_opacity = colour_opacity,
                      .geometry = geometry,
                      .dominators = dominators},
-                    {.background = {background.x(), background.y(), background.z()}});
+                    {.background = to_vec3(background)});
 }
 
 void Rasteriser::record_backward(gpu::Recorder& recorder, GaussianMap& map, const View& view,
@@ -128,11 +128,9 @@ void Rasteriser::record_backward(gpu::Recorder& recorder, GaussianMap& map, cons
                      .tile_gaussians = lists.tile_gaussians,
                      .tile_ranges = lists.tile_ranges,
                      .sensor_depth = view.sensor_depth,
-                     .colour_opacity = colour_opacity,
-                     .geometry = geometry,
-                     .pixel_gradients = pixel_gradients,
+                     .pixel_upstream = pixel_upstream,
                      .instance_gradients = instance_gradients_},
-                    {.background = {background.x(), background.y(), background.z()}});
+                    {});
   recorder.dispatch_indirect(backward_passes(map.sh_degree()).project, lists.dispatch_args,
                              TileLists::kVisibleArgs,
                              {.camera = view.camera,
@@ -170,15 +168,13 @@ void Rasteriser::record_backward_pose(gpu::Recorder& recorder, const GaussianMap
                      .tile_gaussians = lists.tile_gaussians,
                      .tile_ranges = lists.tile_ranges,
                      .sensor_depth = view.sensor_depth,
-                     .colour_opacity = colour_opacity,
-                     .geometry = geometry,
-                     .pixel_gradients = pixel_gradients,
+                     .pixel_upstream = pixel_upstream,
                      .means = map.means.value,
                      .log_scales = map.log_scales.value,
                      .rotations = map.rotations.value,
                      .sh = map.sh.value,
                      .pose_partials = pose_partials_},
-                    {.background = {background.x(), background.y(), background.z()}});
+                    {});
   recorder.dispatch(
       reduce_pose_, 1,
       {.visible_count = lists.visible_count, .pose_partials = pose_partials_, .pose_gradient = pose_gradient},

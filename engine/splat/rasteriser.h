@@ -12,6 +12,8 @@
 
 namespace surefield {
 
+/// A vector as kernels read it.
+glsl::vec3 to_vec3(const Eigen::Vector3f& v);
 /// The camera as kernels read it.
 glsl::CameraState to_device(const Camera& camera);
 /// Back to the pose that a kernel has moved; R is made orthonormal again.
@@ -37,11 +39,11 @@ class Rasteriser {
   /// Renders the map into the images below.
   void record_forward(gpu::Recorder& recorder, const GaussianMap& map, const View& view, Outputs outputs);
 
-  /// After record_forward() of the same view with Outputs::All, and with pixel_gradients filled: gradients of
+  /// After record_forward() of the same view with Outputs::All, and with pixel_upstream filled: gradients of
   /// every visible Gaussian and of the pose. `isotropy_weight` adds that of w L_iso (paper eq. 17).
   void record_backward(gpu::Recorder& recorder, GaussianMap& map, const View& view, float isotropy_weight);
 
-  /// After record_forward() of the same view and `outputs`, with pixel_gradients filled: the gradient of the
+  /// After record_forward() of the same view and `outputs`, with pixel_upstream filled: the gradient of the
   /// pose alone; nothing is written per Gaussian. Gradients of outputs that were not computed are left out.
   void record_backward_pose(gpu::Recorder& recorder, const GaussianMap& map, const View& view,
                             Outputs outputs = Outputs::All);
@@ -58,7 +60,8 @@ class Rasteriser {
   gpu::Array<glsl::vec4> colour_opacity;  ///< I (RGB), O
   gpu::Array<glsl::vec4> geometry;        ///< D_alpha, D_median, U, the dominator's weight
   gpu::Array<glsl::uint> dominators;      ///< index in the map; 0xFFFFFFFF where nothing was blended
-  gpu::Array<glsl::PixelGradient> pixel_gradients;  ///< the caller's: dL/d(images)
+  gpu::Array<glsl::PixelUpstream>
+      pixel_upstream;  ///< the caller's: dL/d(images), from lib/pixel_upstream.glsl
 
   // Gradients of the last backward pass; entries of Gaussians that were not visible are stale.
   gpu::Array<glsl::GaussianGradient> gaussian_gradients;

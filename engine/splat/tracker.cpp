@@ -9,7 +9,6 @@ namespace surefield {
 namespace {
 
 constexpr uint32_t kWorkgroup = 64;
-constexpr uint32_t kStrip = 16;  // pixels per partial sum, as in track_sums.comp
 // Iterations per submission: enough to hide the cost of submitting, few enough to stop in time.
 constexpr int kBatch = 5;
 
@@ -36,7 +35,7 @@ Tracker::Tracker(gpu::Device& device)
       state_(device, "tracking state") {}
 
 void Tracker::record_masks(gpu::Recorder& recorder, uint32_t pixels, double outlier_factor) {
-  const uint32_t strips = (pixels + kStrip - 1) / kStrip;
+  const uint32_t strips = (pixels + glsl::SUM_STRIP - 1) / glsl::SUM_STRIP;
   recorder.reserve(partial_sums_, strips);
   recorder.dispatch(limits_pass_, 1, {.histograms = histograms_, .limits = limits_},
                     {.outlier_factor = static_cast<float>(outlier_factor)});
@@ -70,10 +69,11 @@ void Tracker::record_loss(gpu::Recorder& recorder, Rasteriser& rasteriser, const
                      .residuals = residuals_,
                      .limits = limits_,
                      .sums = sums,
-                     .pixel_gradients = rasteriser.pixel_gradients},
+                     .pixel_upstream = rasteriser.pixel_upstream},
                     {.pixels = pixels,
                      .weight_colour = static_cast<float>(settings.weight_colour),
-                     .weight_depth = static_cast<float>(settings.weight_depth)});
+                     .weight_depth = static_cast<float>(settings.weight_depth),
+                     .background = to_vec3(rasteriser.background)});
 }
 
 void Tracker::record_step(gpu::Recorder& recorder, const Rasteriser& rasteriser, const SensorFrame& frame,

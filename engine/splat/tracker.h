@@ -22,7 +22,7 @@ class Tracker {
                        const Camera& start, const TrackingSettings& settings);
 
   /// Records render, loss and dL/d(images) for the camera in `camera`: the gradient lands in
-  /// rasteriser.pixel_gradients, the masked sums in `sums`.
+  /// rasteriser.pixel_upstream, the masked sums in `sums`.
   void record_loss(gpu::Recorder& recorder, Rasteriser& rasteriser, const GaussianMap& map,
                    const SensorFrame& frame, const TrackingSettings& settings);
 

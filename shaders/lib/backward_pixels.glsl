@@ -2,64 +2,38 @@
 // s_i = dL/dw_i the value of Gaussian i's weight w_i = alpha_i T_i, and S = sum w_i s_i known from the rendered images,
 //   alpha_i dL/dalpha_i = w_i s_i - (S - sum_{j<=i} w_j s_j) w_i / T_{i+1},
 // which is the suffix recursion without a second traversal. Needs splat_types.h, projection.glsl and tile_pixels.glsl, the
-// buffers colour_opacity, geometry, sensor_depth and pixel_gradients, and the constant WITH_GEOMETRY: whether there are
-// gradients of median depth and uncertainty.
-
-/// What stays the same at a pixel while its Gaussians are visited.
-struct PixelUpstream {
-  vec3 colour;        // dL/dI
-  float constant;     // the part of s_i that does not depend on the Gaussian
-  float depth;        // dL/dD_alpha, with the part through the normalised depth
-  float median;       // from here on WITH_GEOMETRY
-  float uncertainty;
-  float sensor;
-};
-
-/// `total`: S.
-PixelUpstream upstream_of(uint at, vec3 background, out float total) {
-  const PixelGradient g = pixel_gradients[at];
-  const vec4 image = colour_opacity[at];
-  const float rendered_depth = geometry[at].x;
-  const float normalised = image.w > 0 ? g.depth_normalised / image.w : 0;
-  PixelUpstream p;
-  p.colour = g.colour;
-  p.depth = g.depth + normalised;
-  p.constant = g.opacity - dot(g.colour, background) - (image.w > 0 ? normalised * rendered_depth / image.w : 0);
-  total = dot(p.colour, image.rgb - (1 - image.w) * background) + p.depth * rendered_depth + p.constant * image.w;
-  if (WITH_GEOMETRY == 1) {
-    p.sensor = sensor_depth[at];
-    p.median = g.depth_median;
-    p.uncertainty = p.sensor > 0 ? g.uncertainty : 0;
-    total += p.uncertainty * geometry[at].z;
-  }
-  return p;
-}
+// buffers sensor_depth and pixel_upstream, and the constant WITH_GEOMETRY: whether there are gradients of median depth and
+// uncertainty.
 
 /// s_i for a Gaussian of this colour and depth.
-float weight_value(PixelUpstream p, vec3 colour, float depth) {
+float weight_value(PixelUpstream p, float sensor, vec3 colour, float depth) {
   const float value = dot(p.colour, colour) + p.depth * depth + p.constant;
   if (WITH_GEOMETRY == 0) return value;
-  const float off = depth - p.sensor;
+  const float off = depth - sensor;
   return value + p.uncertainty * off * off;
 }
 
 /// dL/dz of a Gaussian of this depth with this weight. The median belongs to the one that takes the transmittance from
 /// `before` below one half.
-float depth_slope(PixelUpstream p, float weight, float depth, float before, float after) {
+float depth_slope(PixelUpstream p, float sensor, float weight, float depth, float before, float after) {
   if (WITH_GEOMETRY == 0) return weight * p.depth;
-  return weight * (p.depth + 2 * p.uncertainty * (depth - p.sensor)) + (before >= 0.5 && after < 0.5 ? p.median : 0.0);
+  return weight * (p.depth + 2 * p.uncertainty * (depth - sensor)) + (before >= 0.5 && after < 0.5 ? p.median : 0.0);
 }
 
 // The lane's pixels (lib/tile_pixels.glsl).
 PixelUpstream upstream[PIXELS];
+float sensor[PIXELS];   // WITH_GEOMETRY
 float transmittance[PIXELS], behind[PIXELS];
 
-void load_pixels(CameraState c, vec3 background) {
+void load_pixels(CameraState c) {
   [[unroll]] for (uint k = 0; k < PIXELS; ++k) {
     const uvec2 pixel = lane_pixel(k % COLUMNS, k / COLUMNS);
     const bool inside = pixel.x < c.width && pixel.y < c.height;
+    const uint at = inside ? pixel.y * c.width + pixel.x : 0;
     transmittance[k] = inside ? 1.0 : 0.0;
-    upstream[k] = upstream_of(inside ? pixel.y * c.width + pixel.x : 0, background, behind[k]);
+    upstream[k] = pixel_upstream[at];
+    behind[k] = upstream[k].total;
+    if (WITH_GEOMETRY == 1) sensor[k] = sensor_depth[at];
   }
 }
 
@@ -93,7 +67,7 @@ SplatGradient visit_batch(Stamp my) {
           const float before = transmittance[k];
           const Layer l = layer_of(along + dy * (across + stamp.form.z * dy), before);
           transmittance[k] = l.stops ? 0.0 : l.left;
-          const float value = weight_value(upstream[k], stamp.colour, stamp.depth);
+          const float value = weight_value(upstream[k], sensor[k], stamp.colour, stamp.depth);
           behind[k] -= l.weight * value;
           // dL/dexponent = alpha dL/dalpha; none through the clamp of alpha.
           const float slope = l.weight * (value - behind[k] / max(l.left, TRANSMITTANCE_MIN));
@@ -102,7 +76,7 @@ SplatGradient visit_batch(Stamp my) {
           sum_y += g * dy;
           sum_yy += g * dy * dy;
           g_colour += l.weight * upstream[k].colour;
-          depth[member] += depth_slope(upstream[k], l.weight, stamp.depth, before, transmittance[k]);
+          depth[member] += depth_slope(upstream[k], sensor[k], l.weight, stamp.depth, before, transmittance[k]);
         }
         g0[member] += sum;
         gx[member] += sum * dx;

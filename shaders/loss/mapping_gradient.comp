@@ -2,6 +2,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "mapping_gradient.h"
 #include "ssim.glsl"
+#include "pixel_upstream.glsl"
 
 // One invocation per strip of STRIP pixels of a column, as in ssim_columns: finishes the blur of SSIM's slopes and adds
 // the L1 terms. A pixel without sensor depth has no part in the depth terms, one without a median none in L_align.
@@ -62,7 +63,7 @@ void main() {
     }
     if (NORMALISED_DEPTH == 0) g.depth = g_depth;
     else g.depth_normalised = g_depth;
-    pixel_gradients[at] = g;
+    pixel_upstream[at] = upstream_of(g, image, geo, sensor, params.background);
   }
   loss_partials[i] = sums;
 }

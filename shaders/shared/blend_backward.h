@@ -3,7 +3,6 @@
 
 #define PASS blend_backward
 #define PASS_CONSTANTS(C) C(1, TILE_W, 8) C(2, TILE_H, 8) C(3, LANES, 8)
-#define PASS_PARAMS(P) P(vec3, background)
 #define PASS_BINDINGS(READ, WRITE, UPDATE)   \
   READ(0, CameraState, camera)               \
   READ(1, Splat, splats)                     \
@@ -11,8 +10,6 @@
   READ(3, uint, tile_gaussians)              \
   READ(4, uvec2, tile_ranges)                \
   READ(5, float, sensor_depth)               \
-  READ(6, vec4, colour_opacity)              \
-  READ(7, vec4, geometry)                    \
-  READ(8, PixelGradient, pixel_gradients)    \
-  WRITE(9, SplatGradient, instance_gradients)
+  READ(6, PixelUpstream, pixel_upstream)     \
+  WRITE(7, SplatGradient, instance_gradients)
 #include "declare_pass.h"

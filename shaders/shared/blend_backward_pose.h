@@ -7,19 +7,16 @@
   C(4, SH_DEGREE, 0)                               \
   C(5, FULL_POSE_GRADIENT, 1) /* 0: light, through the centre and the depth alone */ \
   C(6, WITH_GEOMETRY, 1)      /* also from median depth and uncertainty */
-#define PASS_PARAMS(P) P(vec3, background)
 #define PASS_BINDINGS(READ, WRITE, UPDATE)   \
   READ(0, CameraState, camera)               \
   READ(1, Splat, splats)                     \
   READ(2, uint, tile_gaussians)              \
   READ(3, uvec2, tile_ranges)                \
   READ(4, float, sensor_depth)               \
-  READ(5, vec4, colour_opacity)              \
-  READ(6, vec4, geometry)                    \
-  READ(7, PixelGradient, pixel_gradients)    \
-  READ(8, vec3, means)                       \
-  READ(9, vec3, log_scales)                  \
-  READ(10, vec4, rotations)                  \
-  READ(11, vec3, sh)                         \
-  WRITE(12, PoseGradient, pose_partials)
+  READ(5, PixelUpstream, pixel_upstream)     \
+  READ(6, vec3, means)                       \
+  READ(7, vec3, log_scales)                  \
+  READ(8, vec4, rotations)                   \
+  READ(9, vec3, sh)                          \
+  WRITE(10, PoseGradient, pose_partials)
 #include "declare_pass.h"

@@ -6,6 +6,10 @@
 
 SHARED_TYPES_BEGIN
 
+/// Pixels that one invocation works, side by side: of SSIM's passes, and of the masked sums of tracking.
+SHARED_CONST uint SSIM_STRIP = 8;
+SHARED_CONST uint SUM_STRIP = 16;
+
 /// Horizontally blurred moments of the rendered (x) and the sensor's (y) colour, for SSIM.
 struct SsimMoments {
   vec3 x;

@@ -5,7 +5,7 @@
 #define PASS_CONSTANTS(C) C(1, NORMALISED_DEPTH, 0) /* the depth terms use D_alpha / O */
 #define PASS_PARAMS(P)                                                                               \
   P(uint, width) P(uint, height) P(float, valid_pixels) P(float, w_colour) P(float, w_ssim)          \
-  P(float, w_depth) P(float, w_align) P(float, w_variance)
+  P(float, w_depth) P(float, w_align) P(float, w_variance) P(vec3, background)
 #define PASS_BINDINGS(READ, WRITE, UPDATE)  \
   READ(0, vec4, colour_opacity)             \
   READ(1, vec4, geometry)                   \
@@ -14,6 +14,6 @@
   READ(4, SsimSlopes, row_slopes)           \
   READ(5, uint, median_count)               \
   READ(6, float, ssim_partials)             \
-  WRITE(7, PixelGradient, pixel_gradients)  \
+  WRITE(7, PixelUpstream, pixel_upstream)   \
   WRITE(8, LossSums, loss_partials)
 #include "declare_pass.h"

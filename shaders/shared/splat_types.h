@@ -49,6 +49,17 @@ struct PixelGradient {
   float uncertainty;
 };
 
+/// A PixelGradient together with what was rendered there, as going backward needs it for every Gaussian: with s_i =
+/// dL/dw_i = colour . c_i + depth z_i + uncertainty (z_i - D)^2 + constant the value of Gaussian i's weight w_i.
+struct PixelUpstream {
+  vec3 colour;
+  float depth;        // dL/dD_alpha, with the part through the normalised depth
+  float constant;     // the part of s_i that does not depend on the Gaussian
+  float total;        // sum w_i s_i
+  float median;
+  float uncertainty;
+};
+
 /// Gradient of the loss with respect to a Gaussian's parameters, as optimised (SH apart).
 struct GaussianGradient {
   vec3 mean;

@@ -15,7 +15,7 @@ void main() {
   const uint tile = gl_WorkGroupID.y * ((c.width + TILE_W - 1) / TILE_W) + gl_WorkGroupID.x;
   const uvec2 range = tile_ranges[tile];
 
-  load_pixels(c, params.background);
+  load_pixels(c);
 
   for (uint batch = range.x; batch < range.y; batch += LANES) {
     const uint mine = batch + gl_SubgroupInvocationID;

@@ -16,7 +16,7 @@ void main() {
   const uint tile = gl_WorkGroupID.y * ((c.width + TILE_W - 1) / TILE_W) + gl_WorkGroupID.x;
   const uvec2 range = tile_ranges[tile];
 
-  load_pixels(c, params.background);
+  load_pixels(c);
 
   PoseGradient pose = PoseGradient(vec3(0), vec3(0));
   const vec3 camera_centre = -(transpose(camera_rotation(c)) * c.translation);

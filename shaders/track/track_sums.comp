@@ -2,17 +2,14 @@
 #extension GL_GOOGLE_include_directive : require
 #include "track_sums.h"
 
-// Pixels that one invocation adds up, side by side.
-const uint STRIP = 16;
-
 // One invocation per strip.
 void main() {
   const uint strip = gl_GlobalInvocationID.x;
-  if (strip * STRIP >= params.pixels) return;
+  if (strip * SUM_STRIP >= params.pixels) return;
   const vec2 limit = limits[0];
   TrackSums s = TrackSums(0.0, 0.0, 0.0, 0.0);
-  [[unroll]] for (uint k = 0; k < STRIP; ++k) {
-    const uint i = strip * STRIP + k;
+  [[unroll]] for (uint k = 0; k < SUM_STRIP; ++k) {
+    const uint i = strip * SUM_STRIP + k;
     const vec2 residual = i < params.pixels ? residuals[i] : vec2(-1);
     const bool colour = residual.x >= 0 && residual.x < limit.x, depth = residual.y >= 0 && residual.y < limit.y;
     s.colour += colour ? residual.x : 0.0;

@@ -7,6 +7,7 @@
 #include "tests/reference/scenes.h"
 #include "tests/reference/splatting.h"
 #include "tests/splat/compare.h"
+#include "tests/splat/upstream.h"
 #include "tests/support/device.h"
 
 using namespace surefield;
@@ -39,19 +40,6 @@ reference::ImageGradients random_upstream(const reference::Images& images, Upstr
   return g;
 }
 
-std::vector<glsl::PixelGradient> to_device(const reference::ImageGradients& g) {
-  std::vector<glsl::PixelGradient> pixels(g.opacity.size());
-  for (std::size_t i = 0; i < pixels.size(); ++i)
-    pixels[i] = {{static_cast<float>(g.colour[3 * i]), static_cast<float>(g.colour[3 * i + 1]),
-                  static_cast<float>(g.colour[3 * i + 2])},
-                 static_cast<float>(g.opacity[i]),
-                 static_cast<float>(g.depth[i]),
-                 static_cast<float>(g.depth_normalised[i]),
-                 static_cast<float>(g.depth_median[i]),
-                 static_cast<float>(g.uncertainty[i])};
-  return pixels;
-}
-
 std::vector<double> flat(std::initializer_list<glsl::vec3> list) {
   std::vector<double> values;
   for (const auto& v : list)
@@ -81,7 +69,12 @@ DeviceGradients run_device(const reference::Scene& scene, const reference::Image
     if (!std::isfinite(d) || d < 0) d = 0;
   depth.upload(clean);
   const View view{{state.width, state.height}, camera, depth};
-  rasteriser.render(map, scene.camera, clean);  // grows the lists
+  const RenderImages images = rasteriser.render(map, scene.camera, clean);  // grows the lists too
+  std::vector<glsl::PixelUpstream> pixels;
+  for (std::size_t i = 0; i < images.opacity.size(); ++i) {
+    pixels.push_back(testing::upstream_at(upstream, images, i, {0.1, 0.2, 0.3}));
+    if (clean[i] == 0) pixels.back().uncertainty = 0;
+  }
 
   // Gradients of invisible Gaussians are not written: start from zero.
   const std::size_t count = scene.cloud.size(), coefficients = sh_coefficients(scene.cloud.sh_degree);
@@ -90,7 +83,7 @@ DeviceGradients run_device(const reference::Scene& scene, const reference::Image
   gpu::Recorder recorder(device);
   rasteriser.record_forward(recorder, map, view, Outputs::All);
   recorder.submit();
-  rasteriser.pixel_gradients.upload(to_device(upstream));
+  rasteriser.pixel_upstream.upload(pixels);
   rasteriser.record_backward(recorder, map, view, 0.0f);
   recorder.submit();
 

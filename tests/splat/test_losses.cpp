@@ -7,6 +7,7 @@
 #include "tests/reference/scenes.h"
 #include "tests/reference/splatting.h"
 #include "tests/splat/compare.h"
+#include "tests/splat/upstream.h"
 #include "tests/support/device.h"
 
 using namespace surefield;
@@ -36,37 +37,30 @@ FrameView view_of(const Observed& o) {
   return {o.rendered.width, o.rendered.height, o.colour_bytes.data(), o.scene.depth.data(), 1e3f};
 }
 
-/// dL/d(images) as the device left it, field by field, and as the oracle has it.
-void compare_gradients(const std::vector<glsl::PixelGradient>& got, const reference::ImageGradients& want,
-                       const std::vector<uint8_t>& skip) {
-  const auto check = [&](const std::string& name, auto field, const std::vector<double>& oracle) {
+/// What the device left for the backward passes, field by field, and as the oracle's dL/d(images) has it.
+void compare_upstream(const std::vector<glsl::PixelUpstream>& got, const reference::ImageGradients& gradients,
+                      const RenderImages& images, const std::vector<uint8_t>& skip) {
+  std::vector<glsl::PixelUpstream> want;
+  for (std::size_t i = 0; i < got.size(); ++i) want.push_back(testing::upstream_at(gradients, images, i));
+  const auto check = [&](const std::string& name, auto field) {
     CAPTURE(name);
-    const double scale = magnitude(oracle);
-    double worst = 0;
-    for (std::size_t i = 0; i < got.size(); ++i)
-      if (!skip[i]) worst = std::max(worst, std::abs(field(got[i]) - oracle[i]) / scale);
-    CHECK(worst < 1e-3);
+    std::vector<double> device, oracle;
+    for (std::size_t i = 0; i < got.size(); ++i) {
+      if (skip[i]) continue;
+      device.push_back(field(got[i]));
+      oracle.push_back(field(want[i]));
+    }
+    CHECK(largest_difference(device, oracle, magnitude(oracle)) < 1e-3);
   };
-  std::vector<double> red, green, blue;
-  for (std::size_t i = 0; i < got.size(); ++i) {
-    red.push_back(want.colour[3 * i]);
-    green.push_back(want.colour[3 * i + 1]);
-    blue.push_back(want.colour[3 * i + 2]);
-  }
-  check(
-      "red", [](const auto& g) { return g.colour.x; }, red);
-  check(
-      "green", [](const auto& g) { return g.colour.y; }, green);
-  check(
-      "blue", [](const auto& g) { return g.colour.z; }, blue);
-  check(
-      "depth", [](const auto& g) { return g.depth; }, want.depth);
-  check(
-      "normalised", [](const auto& g) { return g.depth_normalised; }, want.depth_normalised);
-  check(
-      "median", [](const auto& g) { return g.depth_median; }, want.depth_median);
-  check(
-      "uncertainty", [](const auto& g) { return g.uncertainty; }, want.uncertainty);
+  using Pixel = glsl::PixelUpstream;
+  check("red", [](const Pixel& p) { return p.colour.x; });
+  check("green", [](const Pixel& p) { return p.colour.y; });
+  check("blue", [](const Pixel& p) { return p.colour.z; });
+  check("depth", [](const Pixel& p) { return p.depth; });
+  check("constant", [](const Pixel& p) { return p.constant; });
+  check("total", [](const Pixel& p) { return p.total; });
+  check("median", [](const Pixel& p) { return p.median; });
+  check("uncertainty", [](const Pixel& p) { return p.uncertainty; });
 }
 
 }  // namespace
@@ -111,7 +105,8 @@ TEST_CASE("the mapping loss and its gradient agree with the oracle") {
         const double depth = kind == DepthKind::Alpha ? images.depth[i] : images.depth_normalised[i];
         skip[i] = images.depth_median[i] > 0 && std::abs(depth - images.depth_median[i]) < 1e-5;
       }
-      compare_gradients(rasteriser.pixel_gradients.download(frame.size.pixels()), want.images, skip);
+      compare_upstream(rasteriser.pixel_upstream.download(frame.size.pixels()), want.images, o.rendered,
+                       skip);
     }
 }
 
@@ -157,7 +152,7 @@ TEST_CASE("the tracking loss, its masks and its gradient agree with the oracle")
       CHECK(sums.depth_pixels == depth_pixels);
       CHECK(sums.colour / sums.colour_pixels == doctest::Approx(want.colour).epsilon(1e-4));
       CHECK(sums.depth / sums.depth_pixels == doctest::Approx(want.depth).epsilon(1e-4));
-      compare_gradients(rasteriser.pixel_gradients.download(frame.size.pixels()), want.images,
-                        std::vector<uint8_t>(frame.size.pixels(), 0));
+      compare_upstream(rasteriser.pixel_upstream.download(frame.size.pixels()), want.images, o.rendered,
+                       std::vector<uint8_t>(frame.size.pixels(), 0));
     }
 }

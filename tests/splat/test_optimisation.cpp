@@ -123,7 +123,7 @@ TEST_CASE("the isotropy loss adds its gradient") {
   gpu::Recorder recorder(device);
   rasteriser.record_forward(recorder, map, {{state.width, state.height}, camera, depth}, Outputs::All);
   recorder.submit();
-  rasteriser.pixel_gradients.upload(std::vector<glsl::PixelGradient>(state.width * state.height));
+  rasteriser.pixel_upstream.upload(std::vector<glsl::PixelUpstream>(state.width * state.height));
   rasteriser.record_backward(recorder, map, {{state.width, state.height}, camera, depth}, 0.7f);
   recorder.submit();
 
