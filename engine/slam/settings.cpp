@@ -13,7 +13,13 @@ constexpr Range kFactor{0, 1e6};
 constexpr Range kSteps{0, 100000};
 
 void bind_tracking(ConfigSchema& schema, TrackingSettings& tracking) {
-  schema.add("tracking.iterations", &tracking.iterations, Range{1, 100000}, "steps per frame, at most");
+  schema.add(
+      "tracking.method", &tracking.method,
+      Choices<TrackingMethod>{{"gauss-newton", TrackingMethod::GaussNewton}, {"adam", TrackingMethod::Adam}},
+      "second-order alignment to a few renders, or the paper's gradient descent through the renderer");
+  schema.add("tracking.renders", &tracking.renders, Range{1, 1000},
+             "gauss-newton: renders that a frame is aligned to, at most");
+  schema.add("tracking.iterations", &tracking.iterations, Range{1, 100000}, "adam: steps per frame, at most");
   schema.add("tracking.rate_rotation", &tracking.rate_rotation, kRate,
              "Adam's step of the rotation, radians");
   schema.add("tracking.rate_translation", &tracking.rate_translation, kRate,

@@ -4,9 +4,10 @@
 #include <stdexcept>
 #include <unordered_map>
 
+#include "engine/splat/adam_tracker.h"
 #include "engine/splat/densifier.h"
+#include "engine/splat/gauss_newton_tracker.h"
 #include "engine/splat/mapper.h"
-#include "engine/splat/tracker.h"
 
 namespace surefield {
 
@@ -21,7 +22,9 @@ struct SplatEngine::Implementation {
   gpu::Device device;
   GaussianMap map;
   Rasteriser rasteriser;
-  Tracker tracker;
+  TrackingLoss tracking_loss;
+  AdamTracker adam_tracker;
+  GaussNewtonTracker gauss_newton_tracker;
   Mapper mapper;
   Densifier densifier;
   std::unordered_map<FrameHandle, SensorFrame> frames;
@@ -31,7 +34,9 @@ struct SplatEngine::Implementation {
       : device({.selector = options.device, .validate = options.validate}),
         map(device),
         rasteriser(device),
-        tracker(device),
+        tracking_loss(device),
+        adam_tracker(device),
+        gauss_newton_tracker(device),
         mapper(device),
         densifier(device) {}
 
@@ -94,7 +99,11 @@ RenderImages SplatEngine::render(const Camera& camera, std::span<const float> se
 
 TrackingResult SplatEngine::track(FrameHandle frame, const Camera& start, const TrackingSettings& settings) {
   Implementation& i = *implementation_;
-  return i.tracker.track(i.rasteriser, i.map, i.frames.at(frame), start, settings);
+  const auto track_with = [&](auto& tracker) {
+    return tracker.track(i.rasteriser, i.tracking_loss, i.map, i.frames.at(frame), start, settings);
+  };
+  return settings.method == TrackingMethod::Adam ? track_with(i.adam_tracker)
+                                                 : track_with(i.gauss_newton_tracker);
 }
 
 MappingResult SplatEngine::optimise(std::span<MappingView> views, std::span<const int> order,

@@ -3,15 +3,15 @@
 #include "track_step.h"
 #include "adam.glsl"
 #include "pose.glsl"
+#include "tracking_loss.glsl"
 
 // A single invocation. The loss belongs to the camera as it was rendered, so the best pose is taken before the step. A
 // render that had to leave Gaussians out, or one that no pixel can be compared with, changes nothing.
 void main() {
   if (gl_GlobalInvocationID.x != 0 || status[0].overflow != 0) return;
   const TrackSums s = sums[0];
-  const bool comparable = s.colour_pixels > 0 || s.depth_pixels > 0;
-  const float loss = params.weight_colour * s.colour / max(s.colour_pixels, 1) +
-                     params.weight_depth * s.depth / max(s.depth_pixels, 1);
+  const bool comparable = is_comparable(s);
+  const float loss = tracking_loss(s, params.weight_colour, params.weight_depth);
   CameraState c = camera[0];
   if (comparable && loss < state[0].best_loss) {
     state[0].best_loss = loss;

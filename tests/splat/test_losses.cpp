@@ -2,7 +2,7 @@
 
 #include "engine/gpu/recorder.h"
 #include "engine/splat/mapper.h"
-#include "engine/splat/tracker.h"
+#include "engine/splat/tracking_loss.h"
 #include "tests/reference/losses.h"
 #include "tests/reference/scenes.h"
 #include "tests/reference/splatting.h"
@@ -113,7 +113,8 @@ TEST_CASE("the mapping loss and its gradient agree with the oracle") {
 TEST_CASE("the tracking loss, its masks and its gradient agree with the oracle") {
   gpu::Device& device = testing::device();
   Rasteriser rasteriser(device);
-  Tracker tracker(device);
+  TrackingLoss loss(device);
+  gpu::Array<glsl::CameraState> camera(device, "camera");
   GaussianMap map(device);
   for (DepthKind kind : {DepthKind::Alpha, DepthKind::Normalised})
     for (double minimum_opacity : {0.3, 0.9}) {
@@ -128,9 +129,10 @@ TEST_CASE("the tracking loss, its masks and its gradient agree with the oracle")
       settings.depth = kind;
       settings.minimum_opacity = minimum_opacity;
       const glsl::CameraState state = to_device(scene.camera);
-      tracker.camera.upload(std::span(&state, 1));
+      camera.upload(std::span(&state, 1));
       gpu::Recorder recorder(device);
-      tracker.record_loss(recorder, rasteriser, map, frame, settings);
+      loss.record(recorder, rasteriser, map, frame, camera, settings);
+      loss.record_gradient(recorder, rasteriser, frame, settings);
       recorder.submit();
 
       const auto want = reference::tracking_loss(
@@ -141,7 +143,7 @@ TEST_CASE("the tracking loss, its masks and its gradient agree with the oracle")
            .outlier_factor = settings.outlier_factor,
            .depth_kind =
                kind == DepthKind::Alpha ? reference::DepthKind::alpha : reference::DepthKind::normalised});
-      const glsl::TrackSums sums = tracker.sums.download(1)[0];
+      const glsl::TrackSums sums = loss.sums.download(1)[0];
       double colour_pixels = 0, depth_pixels = 0;
       for (auto m : want.colour_mask) colour_pixels += m;
       for (auto m : want.depth_mask) depth_pixels += m;

@@ -5,14 +5,17 @@
 #include "engine/gpu/recorder.h"
 #include "engine/splat/densifier.h"
 #include "engine/splat/mapper.h"
-#include "engine/splat/tracker.h"
 #include "tests/reference/losses.h"
 #include "tests/reference/scenes.h"
 #include "tests/reference/splatting.h"
 #include "tests/splat/compare.h"
+#include "tests/splat/wall.h"
 #include "tests/support/device.h"
 
 using namespace surefield;
+using testing::frame_of;
+using testing::wall;
+using testing::wall_camera;
 
 namespace {
 
@@ -28,39 +31,6 @@ struct ReferenceAdam {
     return -rate * (m / (1 - std::pow(0.9, t))) / (std::sqrt(v / (1 - std::pow(0.999, t))) + 1e-15);
   }
 };
-
-/// A textured wall two metres away, one Gaussian per pixel, as a frame of it would spawn.
-GaussianCloud wall(int width, int height, double focal) {
-  GaussianCloud cloud;
-  for (int v = 0; v < height; ++v)
-    for (int u = 0; u < width; ++u) {
-      const double z = 2 + 0.4 * std::sin(0.2 * u) * std::cos(0.15 * v);
-      cloud.means.emplace_back(z * (u - width / 2.0) / focal, z * (v - height / 2.0) / focal, z);
-      cloud.log_scales.push_back(Eigen::Vector3f::Constant(static_cast<float>(std::log(z / focal))));
-      cloud.rotations.emplace_back(1, 0, 0, 0);
-      cloud.opacity_logits.push_back(3.0f);
-      for (int c = 0; c < 3; ++c)
-        cloud.sh.push_back(static_cast<float>(std::sin(0.5 * u + c) * std::cos(0.4 * v - c)));
-    }
-  return cloud;
-}
-
-/// The frame that a camera sees of a map.
-SensorFrame frame_of(gpu::Device& device, Rasteriser& rasteriser, const GaussianMap& map,
-                     const Camera& camera) {
-  const RenderImages images = rasteriser.render(map, camera);
-  std::vector<uint8_t> colour;
-  for (float c : images.colour)
-    colour.push_back(static_cast<uint8_t>(std::lround(std::clamp(c, 0.0f, 1.0f) * 255)));
-  std::vector<float> depth = images.depth_normalised;
-  for (std::size_t i = 0; i < depth.size(); ++i)
-    if (images.opacity[i] < 0.95f) depth[i] = 0;
-  return SensorFrame(device, {images.width, images.height, colour.data(), depth.data(), 10});
-}
-
-Camera wall_camera() {
-  return {{.width = 96, .height = 72, .fx = 90, .fy = 90, .cx = 47.5, .cy = 35.5}};
-}
 
 }  // namespace
 
@@ -142,40 +112,6 @@ TEST_CASE("the isotropy loss adds its gradient") {
     CHECK(got[i].log_scale.y == doctest::Approx(want.log_scales[i].y()).epsilon(1e-4));
     CHECK(got[i].log_scale.z == doctest::Approx(want.log_scales[i].z()).epsilon(1e-4));
   }
-}
-
-TEST_CASE("tracking recovers a pose from a perturbed start") {
-  gpu::Device& device = testing::device();
-  Rasteriser rasteriser(device);
-  Tracker tracker(device);
-  GaussianMap map(device);
-  map.assign(wall(120, 90, 90));
-  const Camera truth = wall_camera();
-  const SensorFrame frame = frame_of(device, rasteriser, map, truth);
-  Camera start = truth;
-  start.world_to_camera = Eigen::Translation3d(0.01, -0.008, 0.012) *
-                          Eigen::AngleAxisd(0.01, Eigen::Vector3d(1, -2, 0.5).normalized());
-  for (PoseGradientKind kind : {PoseGradientKind::Full, PoseGradientKind::Light}) {
-    const TrackingResult result = tracker.track(
-        rasteriser, map, frame, start, {.iterations = 80, .minimum_opacity = 0.9, .pose_gradient = kind});
-    const Pose error = result.world_to_camera * truth.world_to_camera.inverse();
-    CHECK(error.translation().norm() < 2e-3);
-    CHECK(Eigen::AngleAxisd(error.rotation()).angle() < 1e-3);
-    CHECK(result.iterations <= 80);
-    CHECK(result.valid_fraction > 0.5);
-  }
-}
-
-TEST_CASE("tracking against an empty map ends with the starting pose") {
-  gpu::Device& device = testing::device();
-  Rasteriser rasteriser(device);
-  Tracker tracker(device);
-  GaussianMap map(device), walls(device);
-  walls.assign(wall(60, 45, 45));
-  const SensorFrame frame = frame_of(device, rasteriser, walls, wall_camera());
-  const TrackingResult result = tracker.track(rasteriser, map, frame, wall_camera(), {.iterations = 10});
-  CHECK(result.world_to_camera.isApprox(wall_camera().world_to_camera));
-  CHECK(result.valid_fraction == 0);
 }
 
 TEST_CASE("mapping lowers the loss and refines poses beside the map") {

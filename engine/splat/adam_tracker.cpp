@@ -1,0 +1,75 @@
+#include "engine/splat/adam_tracker.h"
+
+#include <algorithm>
+#include <chrono>
+#include <limits>
+
+namespace surefield {
+
+namespace {
+
+// Iterations per submission: enough to hide the cost of submitting, few enough to stop in time.
+constexpr int kBatch = 5;
+
+}  // namespace
+
+AdamTracker::AdamTracker(gpu::Device& device)
+    : device_(device),
+      step_pass_(device, device.limits().subgroup_size),
+      camera_(device, "tracked camera"),
+      state_(device, "tracking state") {}
+
+void AdamTracker::record_step(gpu::Recorder& recorder, const Rasteriser& rasteriser, const TrackingLoss& loss,
+                              const SensorFrame& frame, const TrackingSettings& settings) {
+  recorder.dispatch(step_pass_, 1,
+                    {.status = rasteriser.lists.status,
+                     .pose_gradient = rasteriser.pose_gradient,
+                     .sums = loss.sums,
+                     .camera = camera_,
+                     .state = state_},
+                    {.rate_rotation = static_cast<float>(settings.rate_rotation),
+                     .rate_translation = static_cast<float>(settings.rate_translation),
+                     .weight_colour = static_cast<float>(settings.weight_colour),
+                     .weight_depth = static_cast<float>(settings.weight_depth),
+                     .sensor_pixels = static_cast<float>(frame.valid_pixels)});
+}
+
+TrackingResult AdamTracker::track(Rasteriser& rasteriser, TrackingLoss& loss, const GaussianMap& map,
+                                  const SensorFrame& frame, const Camera& start,
+                                  const TrackingSettings& settings) {
+  const auto begin = std::chrono::steady_clock::now();
+  rasteriser.pose_gradient_kind = settings.pose_gradient;
+  const glsl::CameraState first = to_device(start);
+  camera_.upload(std::span(&first, 1));
+  const glsl::TrackState fresh{.best_camera = first, .best_loss = std::numeric_limits<float>::max()};
+  state_.upload(std::span(&fresh, 1));
+
+  gpu::Recorder recorder(device_);
+  glsl::TrackState state = fresh;
+  for (int done = 0; done < settings.iterations; done = static_cast<int>(state.adam.steps)) {
+    for (int i = 0; i < std::min(kBatch, settings.iterations - done); ++i) {
+      loss.record(recorder, rasteriser, map, frame, camera_, settings);
+      loss.record_gradient(recorder, rasteriser, frame, settings);
+      rasteriser.record_backward_pose(recorder, map, {frame.size, camera_, frame.depth},
+                                      Outputs::ColourDepth);
+      record_step(recorder, rasteriser, loss, frame, settings);
+    }
+    recorder.submit();
+    const uint32_t completed = rasteriser.lists.settle();
+    state = state_.download(1)[0];
+    if (completed == 0) continue;  // there was too little room, and now there is enough
+    const bool stuck = static_cast<int>(state.adam.steps) == done;
+    if (stuck || state.last_update < settings.stop_below) break;
+  }
+
+  TrackingResult result;
+  result.world_to_camera = pose_of(state.best_camera);
+  result.loss = state.best_loss;
+  result.valid_fraction = state.best_valid;
+  result.iterations = static_cast<int>(state.adam.steps);
+  result.milliseconds =
+      std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
+  return result;
+}
+
+}  // namespace surefield

@@ -1,0 +1,170 @@
+#include "engine/splat/gauss_newton_tracker.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <limits>
+
+namespace surefield {
+
+namespace {
+
+constexpr uint32_t kWorkgroup = 64;
+// Steps of each level, finest first: after the first render all levels, later the finest alone.
+constexpr int kFirstSteps[] = {4, 4, 6};
+constexpr int kLaterSteps = 4;
+// Where the scales of the residuals start: intensity (0 to 1), and distance over depth.
+constexpr float kFirstScaleColour = 0.1f;
+constexpr float kFirstScaleDepth = 0.02f;
+
+/// How far the last alignment has moved the camera: radians or metres, the larger.
+double motion_of(const glsl::AlignState& state) {
+  const glsl::vec3& t = state.translation;
+  const double trace = state.rotation0.x + state.rotation1.y + state.rotation2.z;
+  const double angle = std::acos(std::clamp((trace - 1) / 2, -1.0, 1.0));
+  return std::max(angle, std::sqrt(static_cast<double>(t.x * t.x + t.y * t.y + t.z * t.z)));
+}
+
+}  // namespace
+
+GaussNewtonTracker::Level::Level(gpu::Device& device)
+    : sensor(device, "sensor level"), rendered(device, "rendered level"), points(device, "rendered points") {}
+
+GaussNewtonTracker::GaussNewtonTracker(gpu::Device& device)
+    : device_(device),
+      sensor_pass_(device, kWorkgroup),
+      rendered_alpha_(device, kWorkgroup, {.NORMALISED_DEPTH = 0}),
+      rendered_normalised_(device, kWorkgroup, {.NORMALISED_DEPTH = 1}),
+      halve_pass_(device, kWorkgroup),
+      points_pass_(device, kWorkgroup),
+      sums_pass_(device, kWorkgroup),
+      begin_pass_(device, device.limits().subgroup_size),
+      step_pass_(device, kWorkgroup),
+      camera_(device, "tracked camera"),
+      state_(device, "alignment state"),
+      partial_sums_(device, "partial alignment sums"),
+      levels_{Level(device), Level(device), Level(device)} {}
+
+void GaussNewtonTracker::resize(gpu::Recorder& recorder, const ImageSize& size) {
+  ImageSize now = size;
+  for (Level& level : levels_) {
+    level.size = now;
+    recorder.reserve(level.sensor, now.pixels());
+    recorder.reserve(level.rendered, now.pixels());
+    recorder.reserve(level.points, now.pixels());
+    now = {now.width / 2, now.height / 2};
+  }
+  recorder.reserve(partial_sums_, size.pixels() / glsl::ALIGN_STRIP + 1);
+}
+
+void GaussNewtonTracker::record_halves(gpu::Recorder& recorder, gpu::Array<glsl::vec2> Level::*image) {
+  for (int i = 1; i < kLevels; ++i) {
+    const ImageSize& size = levels_[i].size;
+    recorder.dispatch(
+        halve_pass_, halve_pass_.groups(size.pixels()),
+        {.source = levels_[i - 1].*image, .image = levels_[i].*image},
+        {.width = size.width, .height = size.height, .source_width = levels_[i - 1].size.width});
+  }
+}
+
+void GaussNewtonTracker::record_sensor(gpu::Recorder& recorder, const SensorFrame& frame) {
+  const auto pixels = static_cast<uint32_t>(frame.size.pixels());
+  recorder.dispatch(sensor_pass_, sensor_pass_.groups(pixels),
+                    {.sensor_colour = frame.colour, .sensor_depth = frame.depth, .image = levels_[0].sensor},
+                    {.pixels = pixels});
+  record_halves(recorder, &Level::sensor);
+}
+
+void GaussNewtonTracker::record_points(gpu::Recorder& recorder, const Rasteriser& rasteriser,
+                                       const TrackingSettings& settings) {
+  const auto pixels = static_cast<uint32_t>(levels_[0].size.pixels());
+  const auto& pass = settings.depth == DepthKind::Normalised ? rendered_normalised_ : rendered_alpha_;
+  recorder.dispatch(pass, pass.groups(pixels),
+                    {.colour_opacity = rasteriser.colour_opacity,
+                     .geometry = rasteriser.geometry,
+                     .image = levels_[0].rendered},
+                    {.pixels = pixels, .minimum_opacity = static_cast<float>(settings.minimum_opacity)});
+  record_halves(recorder, &Level::rendered);
+  for (uint32_t i = 0; i < kLevels; ++i) {
+    const Level& level = levels_[i];
+    recorder.dispatch(points_pass_, points_pass_.groups(level.size.pixels()),
+                      {.camera = camera_, .image = level.rendered, .points = level.points},
+                      {.width = level.size.width, .height = level.size.height, .level = i});
+  }
+}
+
+void GaussNewtonTracker::record_begin(gpu::Recorder& recorder, const Rasteriser& rasteriser,
+                                      const TrackingLoss& loss, const SensorFrame& frame,
+                                      const TrackingSettings& settings) {
+  recorder.dispatch(
+      begin_pass_, 1,
+      {.status = rasteriser.lists.status, .camera = camera_, .sums = loss.sums, .state = state_},
+      {.weight_colour = static_cast<float>(settings.weight_colour),
+       .weight_depth = static_cast<float>(settings.weight_depth),
+       .sensor_pixels = static_cast<float>(frame.valid_pixels)});
+}
+
+void GaussNewtonTracker::record_step(gpu::Recorder& recorder, const Rasteriser& rasteriser, int index) {
+  const Level& level = levels_[index];
+  if (level.size.width < 2 || level.size.height < 2) return;  // nothing to interpolate between
+  const auto strips =
+      static_cast<uint32_t>((level.size.pixels() + glsl::ALIGN_STRIP - 1) / glsl::ALIGN_STRIP);
+  recorder.dispatch(
+      sums_pass_, sums_pass_.groups(strips),
+      {.state = state_, .points = level.points, .sensor = level.sensor, .partial_sums = partial_sums_},
+      {.width = level.size.width,
+       .height = level.size.height,
+       .level = static_cast<uint32_t>(index),
+       .strips = strips});
+  recorder.dispatch(
+      step_pass_, 1,
+      {.status = rasteriser.lists.status, .partial_sums = partial_sums_, .state = state_, .camera = camera_},
+      {.count = strips});
+}
+
+TrackingResult GaussNewtonTracker::track(Rasteriser& rasteriser, TrackingLoss& loss, const GaussianMap& map,
+                                         const SensorFrame& frame, const Camera& start,
+                                         const TrackingSettings& settings) {
+  const auto begin = std::chrono::steady_clock::now();
+  const glsl::CameraState first = to_device(start);
+  camera_.upload(std::span(&first, 1));
+  glsl::AlignState state{.base = first,
+                         .variance_colour = kFirstScaleColour * kFirstScaleColour,
+                         .variance_depth = kFirstScaleDepth * kFirstScaleDepth,
+                         .best_camera = first,
+                         .best_loss = std::numeric_limits<float>::max()};
+  state_.upload(std::span(&state, 1));
+
+  gpu::Recorder recorder(device_);
+  resize(recorder, frame.size);
+  record_sensor(recorder, frame);
+  TrackingResult result;
+  for (int render = 0; render <= settings.renders;) {
+    loss.record(recorder, rasteriser, map, frame, camera_, settings);
+    record_begin(recorder, rasteriser, loss, frame, settings);
+    const bool last = render == settings.renders || (render > 0 && motion_of(state) < settings.stop_below);
+    if (!last) {
+      record_points(recorder, rasteriser, settings);
+      if (render == 0)
+        for (int level = kLevels - 1; level >= 0; --level)
+          for (int i = 0; i < kFirstSteps[level]; ++i) record_step(recorder, rasteriser, level);
+      else
+        for (int i = 0; i < kLaterSteps; ++i) record_step(recorder, rasteriser, 0);
+    }
+    recorder.submit();
+    if (rasteriser.lists.settle() == 0) continue;  // there was too little room, and now there is enough
+    state = state_.download(1)[0];
+    ++render;
+    if (last) break;
+    result.iterations = render;
+  }
+
+  result.world_to_camera = pose_of(state.best_camera);
+  result.loss = state.best_loss;
+  result.valid_fraction = state.best_valid;
+  result.milliseconds =
+      std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
+  return result;
+}
+
+}  // namespace surefield

@@ -1,0 +1,64 @@
+#pragma once
+
+#include <array>
+
+#include "engine/splat/tracking_loss.h"
+#include "shaders/shared/align_begin.h"
+#include "shaders/shared/align_halve.h"
+#include "shaders/shared/align_points.h"
+#include "shaders/shared/align_rendered.h"
+#include "shaders/shared/align_sensor.h"
+#include "shaders/shared/align_step.h"
+#include "shaders/shared/align_sums.h"
+
+namespace surefield {
+
+/// Finds the pose of a frame in a fixed map by Gauss-Newton (docs/method.md, "Second-order tracking"). The
+/// map is rendered at the pose so far; the render's points are aligned to the frame, coarse to fine, by
+/// intensity and by their distance along the normal, with the weights of t-distributions; then the map is
+/// rendered again. A few renders take the place of dozens. Everything but the decision to stop is on the
+/// device.
+class GaussNewtonTracker {
+ public:
+  explicit GaussNewtonTracker(gpu::Device& device);
+
+  /// Tracks `frame` from the pose of `start`.
+  TrackingResult track(Rasteriser& rasteriser, TrackingLoss& loss, const GaussianMap& map,
+                       const SensorFrame& frame, const Camera& start, const TrackingSettings& settings);
+
+ private:
+  static constexpr int kLevels = 3;
+
+  /// Images of one level of the pyramids.
+  struct Level {
+    ImageSize size;
+    gpu::Array<glsl::vec2> sensor;    ///< intensity, depth
+    gpu::Array<glsl::vec2> rendered;  ///< intensity, depth
+    gpu::Array<glsl::AlignPoint> points;
+    explicit Level(gpu::Device& device);
+  };
+
+  void resize(gpu::Recorder& recorder, const ImageSize& size);
+  void record_halves(gpu::Recorder& recorder, gpu::Array<glsl::vec2> Level::*image);
+  void record_sensor(gpu::Recorder& recorder, const SensorFrame& frame);
+  void record_points(gpu::Recorder& recorder, const Rasteriser& rasteriser, const TrackingSettings& settings);
+  void record_begin(gpu::Recorder& recorder, const Rasteriser& rasteriser, const TrackingLoss& loss,
+                    const SensorFrame& frame, const TrackingSettings& settings);
+  void record_step(gpu::Recorder& recorder, const Rasteriser& rasteriser, int level);
+
+  gpu::Device& device_;
+  gpu::Pass<passes::align_sensor> sensor_pass_;
+  gpu::Pass<passes::align_rendered> rendered_alpha_;
+  gpu::Pass<passes::align_rendered> rendered_normalised_;
+  gpu::Pass<passes::align_halve> halve_pass_;
+  gpu::Pass<passes::align_points> points_pass_;
+  gpu::Pass<passes::align_sums> sums_pass_;
+  gpu::Pass<passes::align_begin> begin_pass_;
+  gpu::Pass<passes::align_step> step_pass_;
+  gpu::Array<glsl::CameraState> camera_;
+  gpu::Array<glsl::AlignState> state_;
+  gpu::Array<glsl::AlignSums> partial_sums_;
+  std::array<Level, kLevels> levels_;
+};
+
+}  // namespace surefield

@@ -1,0 +1,76 @@
+#include "engine/splat/tracking_loss.h"
+
+namespace surefield {
+
+namespace {
+
+constexpr uint32_t kWorkgroup = 64;
+
+}  // namespace
+
+TrackingLoss::DepthPasses::DepthPasses(gpu::Device& device, uint32_t normalised)
+    : residuals(device, kWorkgroup, {.NORMALISED_DEPTH = normalised}),
+      gradient(device, kWorkgroup, {.NORMALISED_DEPTH = normalised}) {}
+
+TrackingLoss::TrackingLoss(gpu::Device& device)
+    : sums(device, "tracking sums"),
+      alpha_(device, 0),
+      normalised_(device, 1),
+      limits_pass_(device, kWorkgroup),
+      sums_pass_(device, kWorkgroup),
+      total_pass_(device, kWorkgroup),
+      residuals_(device, "residuals"),
+      histograms_(device, "residual histograms", 2 * glsl::RESIDUAL_BINS),
+      limits_(device, "residual limits"),
+      partial_sums_(device, "partial tracking sums") {}
+
+void TrackingLoss::record_masks(gpu::Recorder& recorder, uint32_t pixels, double outlier_factor) {
+  const uint32_t strips = (pixels + glsl::SUM_STRIP - 1) / glsl::SUM_STRIP;
+  recorder.reserve(partial_sums_, strips);
+  recorder.dispatch(limits_pass_, 1, {.histograms = histograms_, .limits = limits_},
+                    {.outlier_factor = static_cast<float>(outlier_factor)});
+  recorder.dispatch(sums_pass_, sums_pass_.groups(strips),
+                    {.residuals = residuals_, .limits = limits_, .partial_sums = partial_sums_},
+                    {.pixels = pixels});
+  recorder.dispatch(total_pass_, 1, {.partial_sums = partial_sums_, .sums = sums}, {.count = strips});
+}
+
+void TrackingLoss::record(gpu::Recorder& recorder, Rasteriser& rasteriser, const GaussianMap& map,
+                          const SensorFrame& frame, const gpu::Array<glsl::CameraState>& camera,
+                          const TrackingSettings& settings) {
+  const auto pixels = static_cast<uint32_t>(frame.size.pixels());
+  const auto& pass = passes_of(settings.depth).residuals;
+  recorder.reserve(residuals_, pixels);
+  rasteriser.record_forward(recorder, map, {frame.size, camera, frame.depth}, Outputs::ColourDepth);
+  recorder.fill(histograms_, 2 * glsl::RESIDUAL_BINS, 0);
+  recorder.dispatch(pass, pass.groups(pixels),
+                    {.colour_opacity = rasteriser.colour_opacity,
+                     .geometry = rasteriser.geometry,
+                     .sensor_colour = frame.colour,
+                     .sensor_depth = frame.depth,
+                     .residuals = residuals_,
+                     .histograms = histograms_},
+                    {.pixels = pixels, .minimum_opacity = static_cast<float>(settings.minimum_opacity)});
+  record_masks(recorder, pixels, settings.outlier_factor);
+}
+
+void TrackingLoss::record_gradient(gpu::Recorder& recorder, Rasteriser& rasteriser, const SensorFrame& frame,
+                                   const TrackingSettings& settings) {
+  const auto pixels = static_cast<uint32_t>(frame.size.pixels());
+  const auto& pass = passes_of(settings.depth).gradient;
+  recorder.dispatch(pass, pass.groups(pixels),
+                    {.colour_opacity = rasteriser.colour_opacity,
+                     .geometry = rasteriser.geometry,
+                     .sensor_colour = frame.colour,
+                     .sensor_depth = frame.depth,
+                     .residuals = residuals_,
+                     .limits = limits_,
+                     .sums = sums,
+                     .pixel_upstream = rasteriser.pixel_upstream},
+                    {.pixels = pixels,
+                     .weight_colour = static_cast<float>(settings.weight_colour),
+                     .weight_depth = static_cast<float>(settings.weight_depth),
+                     .background = to_vec3(rasteriser.background)});
+}
+
+}  // namespace surefield

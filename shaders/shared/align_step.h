@@ -1,0 +1,11 @@
+// A Gauss-Newton step of the alignment.
+#include "align_types.h"
+
+#define PASS align_step
+#define PASS_PARAMS(P) P(uint, count) /* of partial sums */
+#define PASS_BINDINGS(READ, WRITE, UPDATE) \
+  READ(0, RenderStatus, status)            \
+  READ(1, AlignSums, partial_sums)         \
+  UPDATE(2, AlignState, state)             \
+  UPDATE(3, CameraState, camera)
+#include "declare_pass.h"

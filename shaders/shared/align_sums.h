@@ -1,0 +1,11 @@
+// Partial sums of a Gauss-Newton step of the alignment.
+#include "align_types.h"
+
+#define PASS align_sums
+#define PASS_PARAMS(P) P(uint, width) P(uint, height) P(uint, level) P(uint, strips)
+#define PASS_BINDINGS(READ, WRITE, UPDATE) \
+  READ(0, AlignState, state)               \
+  READ(1, AlignPoint, points)              \
+  READ(2, vec2, sensor)                    \
+  WRITE(3, AlignSums, partial_sums)
+#include "declare_pass.h"

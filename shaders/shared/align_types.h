@@ -1,0 +1,46 @@
+// Records of the alignment of a frame to a render of the map (second-order tracking).
+#ifndef SUREFIELD_SHARED_ALIGN_TYPES_H
+#define SUREFIELD_SHARED_ALIGN_TYPES_H
+
+#include "loss_types.h"
+
+SHARED_TYPES_BEGIN
+
+/// A pixel of the render as the frame is aligned to it, in the camera frame that was rendered.
+struct AlignPoint {
+  float intensity;  // negative: not part of the photometric term
+  float depth;      // 0: no part at all
+  vec3 normal;      // unit length, towards the camera; 0 where there is none: not part of the geometric term
+};
+
+/// Sums of one Gauss-Newton step over pixels: the normal equations, with the weights in, and for each of the two terms
+/// the weighted squares that its scale follows from.
+struct AlignSums {
+  float normal[21];         // J^T W J, upper triangle by rows; translation first, then rotation
+  float slope[6];           // J^T W r
+  float squares_colour;
+  float squares_depth;
+  float pixels_colour;
+  float pixels_depth;
+};
+
+/// The alignment on its way.
+struct AlignState {
+  CameraState base;        // the camera that was rendered; the motion since:
+  vec3 rotation0;
+  vec3 rotation1;
+  vec3 rotation2;
+  vec3 translation;
+  float variance_colour;   // scales of the residuals' t-distributions, squared
+  float variance_depth;
+  CameraState best_camera;
+  float best_loss;
+  float best_valid;        // depth pixels that took part at the best pose, of those with sensor depth
+};
+
+/// Pixels that one invocation of align_sums adds up.
+SHARED_CONST uint ALIGN_STRIP = 32;
+
+SHARED_TYPES_END
+
+#endif

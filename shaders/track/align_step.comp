@@ -1,0 +1,97 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "align_step.h"
+#include "adam.glsl"
+#include "pose.glsl"
+
+shared AlignSums tree[gl_WorkGroupSize.x];
+
+const float LEAST_VARIANCE = 1e-8;   // of either residual, so that perfect data do not divide by zero
+const float DAMPING = 1e-4;          // of the diagonal
+
+AlignSums add(AlignSums a, AlignSums b) {
+  [[unroll]] for (uint n = 0; n < 21; ++n) a.normal[n] += b.normal[n];
+  [[unroll]] for (uint n = 0; n < 6; ++n) a.slope[n] += b.slope[n];
+  a.squares_colour += b.squares_colour;
+  a.squares_depth += b.squares_depth;
+  a.pixels_colour += b.pixels_colour;
+  a.pixels_depth += b.pixels_depth;
+  return a;
+}
+
+/// Solves the normal equations by Cholesky's decomposition; false where they leave a direction open.
+bool solve(AlignSums s, out float x[6]) {
+  float L[6][6];
+  uint at = 0;
+  [[unroll]] for (uint row = 0; row < 6; ++row)
+    [[unroll]] for (uint column = row; column < 6; ++column) L[column][row] = s.normal[at++];
+  bool solvable = true;
+  [[unroll]] for (uint j = 0; j < 6; ++j) {
+    float pivot = L[j][j] * (1 + DAMPING);
+    [[unroll]] for (uint n = 0; n < j; ++n) pivot -= L[j][n] * L[j][n];
+    solvable = solvable && pivot > 1e-7 * L[j][j];
+    L[j][j] = sqrt(max(pivot, 1e-30));
+    [[unroll]] for (uint i = j + 1; i < 6; ++i) {
+      float sum = L[i][j];
+      [[unroll]] for (uint n = 0; n < j; ++n) sum -= L[i][n] * L[j][n];
+      L[i][j] = sum / L[j][j];
+    }
+  }
+  [[unroll]] for (uint i = 0; i < 6; ++i) {
+    float sum = -s.slope[i];
+    [[unroll]] for (uint n = 0; n < i; ++n) sum -= L[i][n] * x[n];
+    x[i] = sum / L[i][i];
+  }
+  [[unroll]] for (int i = 5; i >= 0; --i) {
+    float sum = x[i];
+    [[unroll]] for (int n = i + 1; n < 6; ++n) sum -= L[n][i] * x[n];
+    x[i] = sum / L[i][i];
+  }
+  float probe = 0;
+  [[unroll]] for (uint i = 0; i < 6; ++i) probe += x[i] * x[i];
+  return solvable && !isnan(probe) && !isinf(probe);
+}
+
+/// The squared scale of a t-distribution from the weighted squares of its residuals.
+float variance_of(float squares, float pixels, float before) {
+  return pixels > 0 ? max(squares / pixels, LEAST_VARIANCE) : before;
+}
+
+// One workgroup: adds up the partial sums in a fixed order; then one invocation solves and moves the camera.
+void main() {
+  const uint i = gl_LocalInvocationID.x;
+  AlignSums sum = partial_sums[min(i, params.count - 1)];   // beyond the count: not used below
+  for (uint k = i + gl_WorkGroupSize.x; k < params.count; k += gl_WorkGroupSize.x) sum = add(sum, partial_sums[k]);
+  tree[i] = sum;
+  for (uint step = gl_WorkGroupSize.x / 2; step > 0; step /= 2) {
+    barrier();
+    if (i < step && i + step < params.count) tree[i] = add(tree[i], tree[i + step]);
+  }
+  if (i != 0 || status[0].overflow != 0) return;
+
+  const AlignSums s = tree[0];
+  state[0].variance_colour = variance_of(s.squares_colour, s.pixels_colour, state[0].variance_colour);
+  state[0].variance_depth = variance_of(s.squares_depth, s.pixels_depth, state[0].variance_depth);
+  float x[6];
+  if (!solve(s, x)) return;
+  CameraState motion = state[0].base;
+  motion.rotation0 = state[0].rotation0;
+  motion.rotation1 = state[0].rotation1;
+  motion.rotation2 = state[0].rotation2;
+  const vec3 phi = vec3(x[3], x[4], x[5]);
+  motion.translation = exp_so3(phi) * state[0].translation;
+  move_camera(motion, phi, vec3(x[0], x[1], x[2]));
+  state[0].rotation0 = motion.rotation0;
+  state[0].rotation1 = motion.rotation1;
+  state[0].rotation2 = motion.rotation2;
+  state[0].translation = motion.translation;
+
+  CameraState c = state[0].base;
+  const mat3 R = transpose(mat3(motion.rotation0, motion.rotation1, motion.rotation2));
+  const mat3 rows = mat3(c.rotation0, c.rotation1, c.rotation2);   // its columns are the base's rows
+  c.rotation0 = rows * motion.rotation0;
+  c.rotation1 = rows * motion.rotation1;
+  c.rotation2 = rows * motion.rotation2;
+  c.translation = R * c.translation + motion.translation;
+  camera[0] = c;
+}

@@ -1,0 +1,80 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "align_sums.h"
+#include "pyramid.glsl"
+
+const float T_FREEDOM = 5;        // of the residuals' t-distributions
+const float DEPTH_GATE = 0.2;     // of the depth: farther apart, the frame shows another surface
+
+/// Weight of a residual from a t-distribution of this squared scale, the division by the scale not yet included.
+float t_weight(float residual, float variance) {
+  return (T_FREEDOM + 1) / (T_FREEDOM + residual * residual / variance);
+}
+
+/// Adds one residual, with its derivative by the translation and the rotation.
+void add_residual(inout AlignSums s, float residual, vec3 by_translation, vec3 by_rotation, float weight) {
+  const float J[6] = float[](by_translation.x, by_translation.y, by_translation.z,  //
+                             by_rotation.x, by_rotation.y, by_rotation.z);
+  uint at = 0;
+  [[unroll]] for (uint row = 0; row < 6; ++row) {
+    s.slope[row] += weight * J[row] * residual;
+    [[unroll]] for (uint column = row; column < 6; ++column) s.normal[at++] += weight * J[row] * J[column];
+  }
+}
+
+// One invocation per ALIGN_STRIP pixels, `strips` apart. A point of the render moves with the camera and is looked up in
+// the sensor's image: its intensity between four pixels, its depth at the nearest one. The residuals are the difference
+// of intensity, and the distance to the point that the sensor measured along the normal.
+void main() {
+  const uint strip = gl_GlobalInvocationID.x;
+  if (strip >= params.strips) return;
+  const vec4 k = intrinsics_at(state[0].base, params.level);
+  const mat3 R = transpose(mat3(state[0].rotation0, state[0].rotation1, state[0].rotation2));
+  const vec3 t = state[0].translation;
+  const float variance_colour = state[0].variance_colour, variance_depth = state[0].variance_depth;
+  const uint pixels = params.width * params.height;
+
+  AlignSums s;
+  [[unroll]] for (uint n = 0; n < 21; ++n) s.normal[n] = 0;
+  [[unroll]] for (uint n = 0; n < 6; ++n) s.slope[n] = 0;
+  s.squares_colour = s.squares_depth = s.pixels_colour = s.pixels_depth = 0;
+
+  for (uint n = 0; n < ALIGN_STRIP; ++n) {
+    const uint i = strip + n * params.strips;
+    const AlignPoint point = points[min(i, pixels - 1)];
+    const vec3 Y = R * unproject(k, vec2(i % params.width, i / params.width), point.depth) + t;
+    const float z = max(Y.z, 1e-3);
+    const vec2 seen = k.xy * Y.xy / z + k.zw;
+    const vec2 last = vec2(params.width - 1, params.height - 1);
+    const bool visible = i < pixels && point.depth > 0 && Y.z > 1e-3 && all(greaterThanEqual(seen, vec2(0))) &&
+                         all(lessThan(seen, last));
+    const vec2 place = visible ? seen : vec2(0);
+    const uvec2 corner = uvec2(place);
+    const vec2 part = place - vec2(corner);
+    const uint at = corner.y * params.width + corner.x;
+    const vec2 p00 = sensor[at], p10 = sensor[at + 1], p01 = sensor[at + params.width],
+               p11 = sensor[at + params.width + 1];
+
+    const float top = mix(p00.x, p10.x, part.x), bottom = mix(p01.x, p11.x, part.x);
+    const float off = mix(top, bottom, part.y) - point.intensity;
+    const vec2 slope = k.xy / z * vec2(mix(p10.x - p00.x, p11.x - p01.x, part.y), bottom - top);
+    const vec3 by_point = vec3(slope, -dot(slope, Y.xy) / z);
+    const float w_colour = visible ? t_weight(off, variance_colour) : 0;
+    s.squares_colour += w_colour * off * off;
+    s.pixels_colour += visible ? 1 : 0;
+    add_residual(s, off, by_point, cross(Y, by_point), w_colour / variance_colour);
+
+    const bool right = part.x >= 0.5, lower = part.y >= 0.5;
+    const float depth = right ? (lower ? p11.y : p10.y) : (lower ? p01.y : p00.y);
+    const vec3 S = unproject(k, vec2(corner) + vec2(right, lower), depth);
+    const bool measured = visible && depth > 0 && abs(depth - Y.z) < DEPTH_GATE * Y.z && point.normal != vec3(0);
+    const vec3 m = R * point.normal;
+    const float scale = 1 / z;
+    const float distance = measured ? scale * dot(m, Y - S) : 0;
+    const float w_depth = measured ? t_weight(distance, variance_depth) : 0;
+    s.squares_depth += w_depth * distance * distance;
+    s.pixels_depth += measured ? 1 : 0;
+    add_residual(s, distance, scale * m, scale * cross(S, m), w_depth / variance_depth);
+  }
+  partial_sums[strip] = s;
+}

@@ -1,0 +1,328 @@
+#include <doctest/doctest.h>
+
+#include <Eigen/Cholesky>
+#include <cmath>
+#include <random>
+
+#include "engine/gpu/recorder.h"
+#include "engine/splat/rasteriser.h"
+#include "shaders/shared/align_halve.h"
+#include "shaders/shared/align_points.h"
+#include "shaders/shared/align_step.h"
+#include "shaders/shared/align_sums.h"
+#include "tests/splat/compare.h"
+#include "tests/support/device.h"
+
+// The passes of Gauss-Newton tracking one by one, against double precision.
+
+using namespace surefield;
+using testing::largest_difference;
+using testing::magnitude;
+
+namespace {
+
+using Matrix6 = Eigen::Matrix<double, 6, 6>;
+using Vector6 = Eigen::Matrix<double, 6, 1>;
+
+constexpr double kVarianceColour = 0.01, kVarianceDepth = 4e-4;
+constexpr double kFreedom = 5;
+
+template <class T>
+gpu::Array<T> on_device(const std::string& name, const std::vector<T>& values) {
+  gpu::Array<T> array(testing::device(), name, values.size());
+  array.upload(values);
+  return array;
+}
+
+Eigen::Vector3d to_eigen(const glsl::vec3& v) {
+  return {v.x, v.y, v.z};
+}
+
+/// Exp(phi) and tau of xi = (tau, phi), which move a point in the camera frame.
+Pose small_motion(const Vector6& xi) {
+  const Eigen::Vector3d phi = xi.tail<3>();
+  Pose pose = Pose::Identity();
+  if (phi.norm() > 0) pose.linear() = Eigen::AngleAxisd(phi.norm(), phi.normalized()).toRotationMatrix();
+  pose.translation() = xi.head<3>();
+  return pose;
+}
+
+/// A render and a frame of `width` x `height` with wavy intensity and depth, some of it missing.
+struct Pair {
+  int width, height;
+  Intrinsics intrinsics;
+  std::vector<glsl::AlignPoint> points;
+  std::vector<glsl::vec2> sensor;
+};
+
+Pair make_pair(int width, int height) {
+  Pair pair{width, height, {.width = width, .height = height, .fx = 60, .fy = 64}, {}, {}};
+  pair.intrinsics.cx = 0.5 * width - 0.3;
+  pair.intrinsics.cy = 0.5 * height + 0.2;
+  std::mt19937 random(7);
+  std::uniform_real_distribution<float> noise(-0.02f, 0.02f);
+  for (int i = 0; i < width * height; ++i) {
+    const auto u = static_cast<float>(i % width), v = static_cast<float>(i / width);
+    const float intensity = 0.5f + 0.3f * std::sin(0.4f * u) * std::cos(0.3f * v);
+    const float depth = 2 + 0.3f * std::sin(0.2f * u + 0.1f * v);
+    const Eigen::Vector3f normal =
+        Eigen::Vector3f(std::sin(0.1f * u), 0.3f * std::cos(0.2f * v), -1).normalized();
+    pair.points.push_back({intensity, i % 13 == 5 ? 0 : depth, {normal.x(), normal.y(), normal.z()}});
+    if (i % 17 == 3) pair.points.back().normal = {0, 0, 0};
+    // One in eleven measures another surface, or nothing.
+    const float measured = i % 11 == 4 ? 0 : i % 11 == 8 ? 2 * depth : depth + noise(random);
+    pair.sensor.push_back({intensity + noise(random), measured});
+  }
+  return pair;
+}
+
+/// Both residuals of one point after a further motion, where lookup happens for the pose without it: `at` is
+/// that pose's pixel.
+struct Residuals {
+  bool visible = false, measured = false;
+  double colour = 0, depth = 0;
+};
+
+Residuals residuals_of(const Pair& p, int i, const Pose& pose, const Vector6& xi) {
+  const Intrinsics& k = p.intrinsics;
+  const glsl::AlignPoint& point = p.points[i];
+  if (!(point.depth > 0)) return {};
+  const double depth = point.depth;
+  const Eigen::Vector3d X(depth * (i % p.width - k.cx) / k.fx, depth * (i / p.width - k.cy) / k.fy, depth);
+  const Eigen::Vector3d Y0 = pose * X, Y = small_motion(xi) * Y0;
+  const double u0 = k.fx * Y0.x() / Y0.z() + k.cx, v0 = k.fy * Y0.y() / Y0.z() + k.cy;
+  if (u0 < 0 || v0 < 0 || u0 >= p.width - 1 || v0 >= p.height - 1) return {};
+  const int column = static_cast<int>(u0), row = static_cast<int>(v0);
+  const double a = k.fx * Y.x() / Y.z() + k.cx - column, b = k.fy * Y.y() / Y.z() + k.cy - row;
+  const auto sensor = [&](int x, int y) { return p.sensor[(row + y) * p.width + column + x]; };
+  Residuals r{.visible = true};
+  r.colour = (1 - a) * (1 - b) * sensor(0, 0).x + a * (1 - b) * sensor(1, 0).x +
+             (1 - a) * b * sensor(0, 1).x + a * b * sensor(1, 1).x - point.intensity;
+
+  const int right = u0 - column >= 0.5, lower = v0 - row >= 0.5;
+  const double seen = sensor(right, lower).y;
+  const Eigen::Vector3d n = to_eigen(point.normal);
+  r.measured = seen > 0 && std::abs(seen - Y0.z()) < 0.2 * Y0.z() && n.norm() > 0;
+  if (!r.measured) return r;
+  const Eigen::Vector3d S(seen * (column + right - k.cx) / k.fx, seen * (row + lower - k.cy) / k.fy, seen);
+  // The division by the depth is a weight, held fixed.
+  r.depth = (small_motion(xi).rotation() * pose.rotation() * n).dot(Y - S) / Y0.z();
+  return r;
+}
+
+double weight_of(double residual, double variance) {
+  return (kFreedom + 1) / (kFreedom + residual * residual / variance);
+}
+
+struct Sums {
+  Matrix6 normal = Matrix6::Zero();
+  Vector6 slope = Vector6::Zero();
+  double squares_colour = 0, squares_depth = 0, pixels_colour = 0, pixels_depth = 0;
+};
+
+/// The oracle: every derivative is a central difference.
+Sums reference_sums(const Pair& p, const Pose& pose) {
+  constexpr double kStep = 1e-6;
+  Sums s;
+  for (int i = 0; i < p.width * p.height; ++i) {
+    const Residuals r = residuals_of(p, i, pose, Vector6::Zero());
+    if (!r.visible) continue;
+    Vector6 J_colour, J_depth;
+    for (int k = 0; k < 6; ++k) {
+      const Residuals more = residuals_of(p, i, pose, kStep * Vector6::Unit(k));
+      const Residuals less = residuals_of(p, i, pose, -kStep * Vector6::Unit(k));
+      J_colour[k] = (more.colour - less.colour) / (2 * kStep);
+      J_depth[k] = (more.depth - less.depth) / (2 * kStep);
+    }
+    const double w = weight_of(r.colour, kVarianceColour);
+    s.squares_colour += w * r.colour * r.colour;
+    s.pixels_colour += 1;
+    s.normal += w / kVarianceColour * J_colour * J_colour.transpose();
+    s.slope += w / kVarianceColour * r.colour * J_colour;
+    if (!r.measured) continue;
+    const double v = weight_of(r.depth, kVarianceDepth);
+    s.squares_depth += v * r.depth * r.depth;
+    s.pixels_depth += 1;
+    s.normal += v / kVarianceDepth * J_depth * J_depth.transpose();
+    s.slope += v / kVarianceDepth * r.depth * J_depth;
+  }
+  return s;
+}
+
+glsl::CameraState camera_state(const Intrinsics& intrinsics) {
+  return to_device(Camera{intrinsics});
+}
+
+glsl::AlignState state_of(const Pair& p, const Pose& motion) {
+  const glsl::CameraState moved = to_device(Camera{p.intrinsics, motion});
+  return {.base = camera_state(p.intrinsics),
+          .rotation0 = moved.rotation0,
+          .rotation1 = moved.rotation1,
+          .rotation2 = moved.rotation2,
+          .translation = moved.translation,
+          .variance_colour = static_cast<float>(kVarianceColour),
+          .variance_depth = static_cast<float>(kVarianceDepth)};
+}
+
+Pose some_motion() {
+  return small_motion((Vector6() << 0.02, -0.03, 0.01, 0.01, 0.02, -0.015).finished());
+}
+
+Sums add_up(const std::vector<glsl::AlignSums>& partial) {
+  Sums s;
+  for (const glsl::AlignSums& part : partial) {
+    int at = 0;
+    for (int row = 0; row < 6; ++row) {
+      s.slope[row] += part.slope[row];
+      for (int column = row; column < 6; ++column) {
+        s.normal(row, column) += part.normal[at];
+        if (column > row) s.normal(column, row) += part.normal[at];
+        ++at;
+      }
+    }
+    s.squares_colour += part.squares_colour;
+    s.squares_depth += part.squares_depth;
+    s.pixels_colour += part.pixels_colour;
+    s.pixels_depth += part.pixels_depth;
+  }
+  return s;
+}
+
+template <class Matrix>
+std::vector<double> entries(const Matrix& m) {
+  return {m.data(), m.data() + m.size()};
+}
+
+}  // namespace
+
+TEST_CASE("the sums of a Gauss-Newton step agree with differences of the residuals") {
+  gpu::Device& device = testing::device();
+  const gpu::Pass<passes::align_sums> pass(device, 64);
+  for (const auto& size : {std::pair{2, 2}, {7, 5}, {64, 48}, {83, 61}}) {
+    CAPTURE(size.first);
+    const Pair p = make_pair(size.first, size.second);
+    const auto strips = static_cast<uint32_t>(p.points.size() / glsl::ALIGN_STRIP + 1);
+    const auto state = on_device("state", std::vector{state_of(p, some_motion())});
+    const auto points = on_device("points", p.points);
+    const auto sensor = on_device("sensor", p.sensor);
+    const gpu::Array<glsl::AlignSums> partial(device, "partial sums", strips);
+    gpu::Recorder recorder(device);
+    recorder.dispatch(pass, pass.groups(strips),
+                      {.state = state, .points = points, .sensor = sensor, .partial_sums = partial},
+                      {.width = static_cast<uint32_t>(p.width),
+                       .height = static_cast<uint32_t>(p.height),
+                       .level = 0,
+                       .strips = strips});
+    recorder.submit();
+    const Sums got = add_up(partial.download(strips)), want = reference_sums(p, some_motion());
+    CHECK(got.pixels_colour == want.pixels_colour);
+    CHECK(got.pixels_depth == want.pixels_depth);
+    CHECK(got.squares_colour == doctest::Approx(want.squares_colour).epsilon(1e-3));
+    CHECK(got.squares_depth == doctest::Approx(want.squares_depth).epsilon(1e-3));
+    CHECK(largest_difference(entries(got.normal), entries(want.normal), magnitude(entries(want.normal))) <
+          1e-3);
+    CHECK(largest_difference(entries(got.slope), entries(want.slope), magnitude(entries(want.slope))) < 1e-3);
+  }
+}
+
+TEST_CASE(
+    "a Gauss-Newton step solves the normal equations and moves the camera; none where they are singular") {
+  gpu::Device& device = testing::device();
+  const gpu::Pass<passes::align_step> pass(device, 64);
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> uniform(-1, 1);
+  for (const uint32_t count : {1u, 63u, 64u, 65u, 300u}) {
+    CAPTURE(count);
+    const Pair p = make_pair(8, 8);
+    std::vector<glsl::AlignSums> partial(count);
+    for (glsl::AlignSums& part : partial) {
+      const Matrix6 A = Matrix6::NullaryExpr([&] { return uniform(random); });
+      const Matrix6 H = A * A.transpose() + 0.5 * Matrix6::Identity();
+      int at = 0;
+      for (int row = 0; row < 6; ++row) {
+        part.slope[row] = static_cast<float>(0.05 * uniform(random));
+        for (int column = row; column < 6; ++column) part.normal[at++] = static_cast<float>(H(row, column));
+      }
+      part.squares_colour = 0.02f;
+      part.pixels_colour = 2;
+    }
+    Matrix6 H = add_up(partial).normal;
+    H.diagonal() *= 1 + 1e-4;
+    const Vector6 xi = -H.ldlt().solve(add_up(partial).slope);
+
+    const gpu::Array<glsl::RenderStatus> status = on_device("status", std::vector<glsl::RenderStatus>{{}});
+    const auto step = [&](const std::vector<glsl::AlignSums>& sums) {
+      const Camera base{p.intrinsics, small_motion(Vector6::Constant(0.3))};
+      glsl::AlignState before = state_of(p, some_motion());
+      before.base = to_device(base);
+      const auto state = on_device("state", std::vector{before});
+      const auto camera = on_device("camera", std::vector{before.base});
+      const auto device_sums = on_device("sums", sums);
+      gpu::Recorder recorder(device);
+      recorder.dispatch(pass, 1,
+                        {.status = status, .partial_sums = device_sums, .state = state, .camera = camera},
+                        {.count = count});
+      recorder.submit();
+      const float variance = state.download(1)[0].variance_colour;
+      CHECK(variance == doctest::Approx(sums[0].pixels_colour > 0 ? 0.01 : kVarianceColour));
+      return (pose_of(camera.download(1)[0]) * base.world_to_camera.inverse()).matrix().eval();
+    };
+    const Pose want = small_motion(xi) * some_motion();
+    CHECK((step(partial) - want.matrix()).norm() < 1e-5);
+    CHECK((step(std::vector<glsl::AlignSums>(count)) - Pose::Identity().matrix()).norm() < 1e-6);
+  }
+}
+
+TEST_CASE("half an image is the mean of four pixels, and of the depths on the nearest surface") {
+  gpu::Device& device = testing::device();
+  const gpu::Pass<passes::align_halve> pass(device, 64);
+  // 5 x 3 pixels: the last column and row have no partner.
+  std::vector<glsl::vec2> source(15, {0.5f, 9.0f});
+  source[0] = {0.1f, 2.0f}, source[1] = {0.2f, 2.05f}, source[5] = {0.3f, 0.0f}, source[6] = {0.4f, 3.0f};
+  source[2] = {1, 0}, source[3] = {1, 0}, source[7] = {1, 0}, source[8] = {0, 0};
+  const auto large = on_device("source", source);
+  const gpu::Array<glsl::vec2> small(device, "image", 2);
+  gpu::Recorder recorder(device);
+  recorder.dispatch(pass, 1, {.source = large, .image = small}, {.width = 2, .height = 1, .source_width = 5});
+  recorder.submit();
+  const auto got = small.download(2);
+  CHECK(got[0].x == doctest::Approx(0.25));
+  CHECK(got[0].y == doctest::Approx(2.025));
+  CHECK(got[1].x == doctest::Approx(0.75));
+  CHECK(got[1].y == 0);
+}
+
+TEST_CASE("normals of a plane are the plane's at every level; none at the border and across edges") {
+  gpu::Device& device = testing::device();
+  const gpu::Pass<passes::align_points> pass(device, 64);
+  const Intrinsics full{.width = 64, .height = 48, .fx = 60, .fy = 55, .cx = 30, .cy = 25};
+  const Eigen::Vector3d normal = Eigen::Vector3d(0.1, -0.08, -1).normalized();
+  for (uint32_t level : {0u, 1u, 2u}) {
+    CAPTURE(level);
+    const Intrinsics k = full.scaled(std::pow(0.5, level));
+    std::vector<glsl::vec2> image;
+    for (int i = 0; i < k.width * k.height; ++i) {
+      const Eigen::Vector3d ray((i % k.width - k.cx) / k.fx, (i / k.width - k.cy) / k.fy, 1);
+      image.push_back({0.5f, static_cast<float>(-2.0 / normal.dot(ray))});
+    }
+    const int hole = 5 * k.width + 4;
+    image[hole].y = 0;
+    const auto rendered = on_device("image", image);
+    const auto camera = on_device("camera", std::vector{camera_state(full)});
+    const gpu::Array<glsl::AlignPoint> points(device, "points", image.size());
+    gpu::Recorder recorder(device);
+    recorder.dispatch(
+        pass, pass.groups(image.size()), {.camera = camera, .image = rendered, .points = points},
+        {.width = static_cast<uint32_t>(k.width), .height = static_cast<uint32_t>(k.height), .level = level});
+    recorder.submit();
+    const auto got = points.download(image.size());
+    for (int i = 0; i < k.width * k.height; ++i) {
+      const int u = i % k.width, v = i / k.width;
+      const bool border = u == 0 || v == 0 || u == k.width - 1 || v == k.height - 1;
+      const bool near_hole = std::abs(u - 4) + std::abs(v - 5) <= 1;
+      CHECK(got[i].depth == image[i].y);
+      const double want = border || near_hole ? 0 : 1;
+      CHECK(to_eigen(got[i].normal).dot(normal) == doctest::Approx(want).epsilon(1e-4));
+    }
+  }
+}

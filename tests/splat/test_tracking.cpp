@@ -1,0 +1,99 @@
+#include <doctest/doctest.h>
+
+#include "engine/gpu/recorder.h"
+#include "engine/splat/adam_tracker.h"
+#include "engine/splat/gauss_newton_tracker.h"
+#include "tests/splat/wall.h"
+#include "tests/support/device.h"
+
+using namespace surefield;
+using testing::frame_of;
+using testing::wall;
+using testing::wall_camera;
+
+namespace {
+
+/// How far apart two poses are.
+struct PoseError {
+  double metres, radians;
+};
+
+PoseError error_of(const TrackingResult& result, const Camera& truth) {
+  const Pose error = result.world_to_camera * truth.world_to_camera.inverse();
+  return {error.translation().norm(), Eigen::AngleAxisd(error.rotation()).angle()};
+}
+
+/// The wall's camera, moved and turned.
+Camera moved(double metres, double radians) {
+  Camera camera = wall_camera();
+  camera.world_to_camera = Eigen::Translation3d(metres * Eigen::Vector3d(0.6, -0.5, 0.62)) *
+                           Eigen::AngleAxisd(radians, Eigen::Vector3d(1, -2, 0.5).normalized());
+  return camera;
+}
+
+/// A wall on the device, and everything that tracks against it.
+struct Track {
+  gpu::Device& device = testing::device();
+  Rasteriser rasteriser{device};
+  TrackingLoss loss{device};
+  GaussianMap map{device};
+
+  template <class Method>
+  TrackingResult run(Method&& tracker, const SensorFrame& frame, const Camera& start,
+                     const TrackingSettings& settings) {
+    return tracker.track(rasteriser, loss, map, frame, start, settings);
+  }
+};
+
+}  // namespace
+
+TEST_CASE("Adam recovers a pose from a perturbed start") {
+  Track t;
+  t.map.assign(wall(120, 90, 90));
+  const SensorFrame frame = frame_of(t.device, t.rasteriser, t.map, wall_camera());
+  for (PoseGradientKind kind : {PoseGradientKind::Full, PoseGradientKind::Light}) {
+    const TrackingResult result = t.run(AdamTracker(t.device), frame, moved(0.017, 0.01),
+                                        {.iterations = 80, .minimum_opacity = 0.9, .pose_gradient = kind});
+    const PoseError error = error_of(result, wall_camera());
+    CHECK(error.metres < 2e-3);
+    CHECK(error.radians < 1e-3);
+    CHECK(result.iterations <= 80);
+    CHECK(result.valid_fraction > 0.5);
+  }
+}
+
+TEST_CASE("Gauss-Newton recovers a pose from near and far, with either depth") {
+  Track t;
+  t.map.assign(wall(160, 120, 90));
+  const SensorFrame frame = frame_of(t.device, t.rasteriser, t.map, wall_camera());
+  for (DepthKind depth : {DepthKind::Alpha, DepthKind::Normalised})
+    for (const auto& start : {std::pair{0.01, 0.017}, {0.03, 0.05}, {0.1, 0.05}}) {
+      CAPTURE(start.first);
+      const TrackingResult result =
+          t.run(GaussNewtonTracker(t.device), frame, moved(start.first, start.second),
+                {.renders = 8, .minimum_opacity = 0.9, .depth = depth});
+      const PoseError error = error_of(result, wall_camera());
+      CHECK(error.metres < 1e-3);
+      CHECK(error.radians < 5e-4);
+      CHECK(result.iterations <= 8);
+      CHECK(result.valid_fraction > 0.5);
+    }
+}
+
+TEST_CASE("tracking against an empty map, or in a tiny image, ends with the starting pose") {
+  Track t;
+  GaussianMap walls(t.device);
+  walls.assign(wall(60, 45, 45));
+  Camera camera = wall_camera();
+  const SensorFrame frame = frame_of(t.device, t.rasteriser, walls, camera);
+  for (const TrackingResult& result :
+       {t.run(AdamTracker(t.device), frame, camera, {.iterations = 10}),
+        t.run(GaussNewtonTracker(t.device), frame, camera, {.iterations = 10})}) {
+    CHECK(result.world_to_camera.isApprox(camera.world_to_camera));
+    CHECK(result.valid_fraction == 0);
+  }
+  camera.intrinsics.width = camera.intrinsics.height = 1;
+  const SensorFrame dot = frame_of(t.device, t.rasteriser, walls, camera);
+  CHECK(
+      t.run(GaussNewtonTracker(t.device), dot, camera, {}).world_to_camera.isApprox(camera.world_to_camera));
+}
