@@ -19,11 +19,12 @@ void bind_tracking(ConfigSchema& schema, TrackingSettings& tracking) {
       "second-order alignment to a few renders, or the paper's gradient descent through the renderer");
   schema.add("tracking.renders", &tracking.renders, Range{1, 1000},
              "gauss-newton: renders that a frame is aligned to, at most");
+  schema.add("tracking.balance", &tracking.balance, kWeight,
+             "gauss-newton: weight of the geometric residuals beside the photometric ones");
   schema.add("tracking.iterations", &tracking.iterations, Range{1, 100000}, "adam: steps per frame, at most");
-  schema.add("tracking.rate_rotation", &tracking.rate_rotation, kRate,
-             "Adam's step of the rotation, radians");
+  schema.add("tracking.rate_rotation", &tracking.rate_rotation, kRate, "adam: step of the rotation, radians");
   schema.add("tracking.rate_translation", &tracking.rate_translation, kRate,
-             "Adam's step of the translation, metres");
+             "adam: step of the translation, metres");
   schema.add("tracking.weight_colour", &tracking.weight_colour, kWeight,
              "lambda_1, weight of the mean colour difference (colours are 0 to 1)");
   schema.add("tracking.weight_depth", &tracking.weight_depth, kWeight,
@@ -37,9 +38,9 @@ void bind_tracking(ConfigSchema& schema, TrackingSettings& tracking) {
              "rendered depth that is compared: blended as it is, or divided by the opacity");
   schema.add("tracking.pose_gradient", &tracking.pose_gradient,
              Choices<PoseGradientKind>{{"full", PoseGradientKind::Full}, {"light", PoseGradientKind::Light}},
-             "terms of the pose's gradient: all, or those through the projected centre and the depth");
+             "adam: terms of the pose's gradient: all, or those through the projected centre and the depth");
   schema.add("tracking.stop_below", &tracking.stop_below, kRate,
-             "tracking ends when all steps have become smaller, radians and metres; 0: never early");
+             "adam: tracking ends when all steps have become smaller, radians and metres; 0: never early");
 }
 
 void bind_mapping(ConfigSchema& schema, MappingSettings& mapping) {
@@ -103,7 +104,7 @@ void SlamSettings::bind(ConfigSchema& schema) {
   schema.add("first_iterations", &first_iterations, kSteps, "mapping steps on the first frame");
   schema.add("mapping_iterations", &mapping_iterations, kSteps, "mapping steps per keyframe");
   schema.add("first_tracking_iterations", &first_tracking_iterations, Range{1, 100000},
-             "steps of the first tracked frame, at most");
+             "adam: steps of the first tracked frame, at most");
   bind_tracking(schema, tracking);
   bind_mapping(schema, mapping);
   schema.add("keyframes.interval", &keyframes.interval, Range{1, 100000},

@@ -183,6 +183,7 @@ TrackingResult Slam::Implementation::retry(FrameHandle handle, const TrackingSet
                                            TrackingResult best, FrameReport& report) {
   TrackingSettings patient = tracking;
   patient.iterations *= 2;
+  patient.renders *= 2;
   for (const Pose& start : {world_to_frame(frames.size() - 1), keyframes.back().camera.world_to_camera}) {
     if (!looks_lost(best)) break;
     const TrackingResult other = engine.track(handle, {intrinsics, start}, patient);

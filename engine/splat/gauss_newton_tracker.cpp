@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cmath>
 #include <limits>
 
 namespace surefield {
@@ -13,16 +12,17 @@ constexpr uint32_t kWorkgroup = 64;
 // Steps of each level, finest first: after the first render all levels, later the finest alone.
 constexpr int kFirstSteps[] = {4, 4, 6};
 constexpr int kLaterSteps = 4;
+// Tracking ends when an alignment has moved the camera by less, radians and metres.
+constexpr double kStill = 1e-4;
 // Where the scales of the residuals start: intensity (0 to 1), and distance over depth.
 constexpr float kFirstScaleColour = 0.1f;
 constexpr float kFirstScaleDepth = 0.02f;
 
-/// How far the last alignment has moved the camera: radians or metres, the larger.
+/// How far the last alignment has moved the camera: radians (to first order) or metres, the larger.
 double motion_of(const glsl::AlignState& state) {
-  const glsl::vec3& t = state.translation;
-  const double trace = state.rotation0.x + state.rotation1.y + state.rotation2.z;
-  const double angle = std::acos(std::clamp((trace - 1) / 2, -1.0, 1.0));
-  return std::max(angle, std::sqrt(static_cast<double>(t.x * t.x + t.y * t.y + t.z * t.z)));
+  const glsl::vec3 &t = state.translation, &x = state.rotation0, &y = state.rotation1, &z = state.rotation2;
+  const Eigen::Vector3d turn(z.y - y.z, x.z - z.x, y.x - x.y);
+  return std::max(turn.norm() / 2, Eigen::Vector3d(t.x, t.y, t.z).norm());
 }
 
 }  // namespace
@@ -104,7 +104,8 @@ void GaussNewtonTracker::record_begin(gpu::Recorder& recorder, const Rasteriser&
        .sensor_pixels = static_cast<float>(frame.valid_pixels)});
 }
 
-void GaussNewtonTracker::record_step(gpu::Recorder& recorder, const Rasteriser& rasteriser, int index) {
+void GaussNewtonTracker::record_step(gpu::Recorder& recorder, const Rasteriser& rasteriser, int index,
+                                     const TrackingSettings& settings) {
   const Level& level = levels_[index];
   if (level.size.width < 2 || level.size.height < 2) return;  // nothing to interpolate between
   const auto strips =
@@ -115,7 +116,8 @@ void GaussNewtonTracker::record_step(gpu::Recorder& recorder, const Rasteriser& 
       {.width = level.size.width,
        .height = level.size.height,
        .level = static_cast<uint32_t>(index),
-       .strips = strips});
+       .strips = strips,
+       .balance = static_cast<float>(settings.balance)});
   recorder.dispatch(
       step_pass_, 1,
       {.status = rasteriser.lists.status, .partial_sums = partial_sums_, .state = state_, .camera = camera_},
@@ -142,14 +144,14 @@ TrackingResult GaussNewtonTracker::track(Rasteriser& rasteriser, TrackingLoss& l
   for (int render = 0; render <= settings.renders;) {
     loss.record(recorder, rasteriser, map, frame, camera_, settings);
     record_begin(recorder, rasteriser, loss, frame, settings);
-    const bool last = render == settings.renders || (render > 0 && motion_of(state) < settings.stop_below);
+    const bool last = render == settings.renders || (render > 0 && motion_of(state) < kStill);
     if (!last) {
       record_points(recorder, rasteriser, settings);
       if (render == 0)
         for (int level = kLevels - 1; level >= 0; --level)
-          for (int i = 0; i < kFirstSteps[level]; ++i) record_step(recorder, rasteriser, level);
+          for (int i = 0; i < kFirstSteps[level]; ++i) record_step(recorder, rasteriser, level, settings);
       else
-        for (int i = 0; i < kLaterSteps; ++i) record_step(recorder, rasteriser, 0);
+        for (int i = 0; i < kLaterSteps; ++i) record_step(recorder, rasteriser, 0, settings);
     }
     recorder.submit();
     if (rasteriser.lists.settle() == 0) continue;  // there was too little room, and now there is enough

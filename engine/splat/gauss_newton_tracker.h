@@ -44,7 +44,8 @@ class GaussNewtonTracker {
   void record_points(gpu::Recorder& recorder, const Rasteriser& rasteriser, const TrackingSettings& settings);
   void record_begin(gpu::Recorder& recorder, const Rasteriser& rasteriser, const TrackingLoss& loss,
                     const SensorFrame& frame, const TrackingSettings& settings);
-  void record_step(gpu::Recorder& recorder, const Rasteriser& rasteriser, int level);
+  void record_step(gpu::Recorder& recorder, const Rasteriser& rasteriser, int level,
+                   const TrackingSettings& settings);
 
   gpu::Device& device_;
   gpu::Pass<passes::align_sensor> sensor_pass_;

@@ -2,7 +2,9 @@
 #include "align_types.h"
 
 #define PASS align_sums
-#define PASS_PARAMS(P) P(uint, width) P(uint, height) P(uint, level) P(uint, strips)
+#define PASS_PARAMS(P)                                          \
+  P(uint, width) P(uint, height) P(uint, level) P(uint, strips) \
+  P(float, balance) /* weight of the geometric term */
 #define PASS_BINDINGS(READ, WRITE, UPDATE) \
   READ(0, AlignState, state)               \
   READ(1, AlignPoint, points)              \

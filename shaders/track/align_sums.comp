@@ -74,7 +74,7 @@ void main() {
     const float w_depth = measured ? t_weight(distance, variance_depth) : 0;
     s.squares_depth += w_depth * distance * distance;
     s.pixels_depth += measured ? 1 : 0;
-    add_residual(s, distance, scale * m, scale * cross(S, m), w_depth / variance_depth);
+    add_residual(s, distance, scale * m, scale * cross(S, m), params.balance * w_depth / variance_depth);
   }
   partial_sums[strip] = s;
 }

@@ -26,6 +26,7 @@ using Vector6 = Eigen::Matrix<double, 6, 1>;
 
 constexpr double kVarianceColour = 0.01, kVarianceDepth = 4e-4;
 constexpr double kFreedom = 5;
+constexpr double kBalance = 0.3;
 
 template <class T>
 gpu::Array<T> on_device(const std::string& name, const std::vector<T>& values) {
@@ -143,8 +144,8 @@ Sums reference_sums(const Pair& p, const Pose& pose) {
     const double v = weight_of(r.depth, kVarianceDepth);
     s.squares_depth += v * r.depth * r.depth;
     s.pixels_depth += 1;
-    s.normal += v / kVarianceDepth * J_depth * J_depth.transpose();
-    s.slope += v / kVarianceDepth * r.depth * J_depth;
+    s.normal += kBalance * v / kVarianceDepth * J_depth * J_depth.transpose();
+    s.slope += kBalance * v / kVarianceDepth * r.depth * J_depth;
   }
   return s;
 }
@@ -212,7 +213,8 @@ TEST_CASE("the sums of a Gauss-Newton step agree with differences of the residua
                       {.width = static_cast<uint32_t>(p.width),
                        .height = static_cast<uint32_t>(p.height),
                        .level = 0,
-                       .strips = strips});
+                       .strips = strips,
+                       .balance = static_cast<float>(kBalance)});
     recorder.submit();
     const Sums got = add_up(partial.download(strips)), want = reference_sums(p, some_motion());
     CHECK(got.pixels_colour == want.pixels_colour);
