@@ -13,7 +13,7 @@ constexpr uint32_t kWorkgroup = 64;
 constexpr int kFirstSteps[] = {4, 4, 6};
 constexpr int kLaterSteps = 4;
 // Tracking ends when an alignment has moved the camera by less, radians and metres.
-constexpr double kStill = 1e-4;
+constexpr double kStill = 3e-4;
 // Where the scales of the residuals start: intensity (0 to 1), and distance over depth.
 constexpr float kFirstScaleColour = 0.1f;
 constexpr float kFirstScaleDepth = 0.02f;
