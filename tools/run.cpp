@@ -18,7 +18,7 @@ constexpr const char* kExamples =
     "Examples:\n"
     "  surefield run --dataset synthetic --out out/demo\n"
     "  surefield run --dataset rgbd_dataset_freiburg1_desk --out out/desk --frames 100 --scale 0.5\n"
-    "  surefield run --dataset Replica/room0 --out out/room0 --set tracking.iterations=40 --set seed=2\n";
+    "  surefield run --dataset Replica/room0 --out out/room0 --set tracking.renders=5 --set seed=2\n";
 
 std::vector<std::string> known_formats() {
   std::vector<std::string> formats = dataset_formats();
@@ -43,7 +43,7 @@ void add_run(CLI::App& program, Action& action) {
       ->capture_default_str();
   run->add_option("--config", options->config,
                   "YAML file, or the name of a built-in one; default: the built-in one of the format");
-  run->add_option("--set", options->assignments, "Sets one key, as in --set tracking.iterations=40")
+  run->add_option("--set", options->assignments, "Sets one key, as in --set tracking.renders=5")
       ->type_name("KEY=VALUE")
       ->allow_extra_args(false)
       ->take_all();
