@@ -7,6 +7,7 @@
 #include <new>
 
 #include "engine/gpu/error.h"
+#include "engine/io/dataset.h"
 #include "engine/io/error.h"
 
 namespace surefield {
@@ -39,6 +40,12 @@ std::string describe_current_exception() {
 
 void print_error(const std::string& message) {
   fmt::print(stderr, "surefield: error: {}\n", message);
+}
+
+std::vector<std::string> known_formats() {
+  std::vector<std::string> formats = dataset_formats();
+  formats.insert(formats.begin(), "auto");
+  return formats;
 }
 
 int run_action(const Action& action) {

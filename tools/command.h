@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <functional>
 #include <string>
+#include <vector>
 
 namespace surefield {
 
@@ -24,11 +25,16 @@ using Action = std::function<int()>;
 void add_devices(CLI::App& program, Action& action);
 void add_run(CLI::App& program, Action& action);
 void add_eval(CLI::App& program, Action& action);
+void add_inspect(CLI::App& program, Action& action);
+void add_fetch(CLI::App& program, Action& action);
 void add_render(CLI::App& program, Action& action);
 void add_report(CLI::App& program, Action& action);
 void add_tables(CLI::App& program, Action& action);
 void add_mesh(CLI::App& program, Action& action);
 void add_bench(CLI::App& program, Action& action);
+
+/// What --format of a dataset may be: "auto" and dataset_formats().
+std::vector<std::string> known_formats();
 
 /// Runs an action. Whatever it throws becomes one line "surefield: error: ..." on stderr and the exit code
 /// that fits.

@@ -28,6 +28,8 @@ void add_commands(CLI::App& program, surefield::Action& action) {
   surefield::add_eval(program, action);
   surefield::add_report(program, action);
   surefield::add_tables(program, action);
+  surefield::add_inspect(program, action);
+  surefield::add_fetch(program, action);
   surefield::add_render(program, action);
   surefield::add_mesh(program, action);
   surefield::add_bench(program, action);

@@ -20,9 +20,9 @@ constexpr const char* kExamples =
     "  surefield run --dataset rgbd_dataset_freiburg1_desk --out out/desk --frames 100 --scale 0.5\n"
     "  surefield run --dataset Replica/room0 --out out/room0 --set tracking.renders=5 --set seed=2\n";
 
-std::vector<std::string> known_formats() {
-  std::vector<std::string> formats = dataset_formats();
-  formats.insert(formats.begin(), "auto");
+/// What --format may be here: the embedded sequence has a format of its own.
+std::vector<std::string> run_formats() {
+  std::vector<std::string> formats = known_formats();
   formats.push_back("synthetic");
   return formats;
 }
@@ -39,7 +39,7 @@ void add_run(CLI::App& program, Action& action) {
   run->add_option("--out", options->out, "Folder of the results; files of an earlier run are overwritten")
       ->required();
   run->add_option("--format", options->format, "Layout of the dataset")
-      ->check(CLI::IsMember(known_formats()))
+      ->check(CLI::IsMember(run_formats()))
       ->capture_default_str();
   run->add_option("--config", options->config,
                   "YAML file, or the name of a built-in one; default: the built-in one of the format");

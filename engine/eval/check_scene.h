@@ -1,0 +1,24 @@
+#pragma once
+
+#include <functional>
+
+#include "engine/eval/warp_check.h"
+
+namespace surefield {
+
+/// What of a dataset is compared, and how it was made comparable.
+struct PreparedScene {
+  CheckScene scene;
+  double scale = 1;                 ///< of the checked images relative to the dataset's
+  bool stamps_are_indices = false;  ///< stamps count frames; how fast they were taken is unknown
+};
+
+/// Whether the stamps of a dataset are but the numbers of its frames.
+bool stamps_are_indices(const Dataset& dataset);
+
+/// Loads frames from all over the dataset, each with a later one that was seen from clearly elsewhere but
+/// shows much of the same; without poses just frames. Frames that cannot be read are left out. Ends early,
+/// with what was loaded, when `stop` returns true.
+PreparedScene prepare_scene(const Dataset& dataset, const std::function<bool()>& stop);
+
+}  // namespace surefield

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "engine/io/frame_stream.h"
+
+namespace surefield {
+
+/// The times at which the frames of a dataset were taken.
+struct StampSurvey {
+  bool indices = false;    ///< the stamps only number the frames
+  double duration = 0;     ///< from first to last, seconds (or frame numbers)
+  double spacing = 0;      ///< median, seconds (or frame numbers)
+  int gaps = 0;            ///< places where at least one frame is missing
+  int dropped = 0;         ///< frames missing there, as their length says
+  double longest_gap = 0;  ///< seconds (or frame numbers)
+  int disordered = 0;      ///< stamps that are not later than the one before
+};
+
+/// What the depth images hold.
+struct DepthSurvey {
+  double near = 0;    ///< metres, a hundredth of the depths is less, to 3 percent
+  double median = 0;  ///< metres, to 3 percent
+  double far = 0;     ///< metres, a hundredth of the depths is more, to 3 percent
+  double holes = 0;   ///< share of the pixels without depth
+};
+
+/// What reading a whole dataset tells.
+struct DatasetSurvey {
+  int frames = 0;  ///< those looked at
+  std::vector<SkippedFrame> unreadable;
+  int posed = 0;  ///< frames whose true pose is known
+  StampSurvey stamps;
+  std::optional<DepthSurvey> depth;  ///< nothing where no frame has depth
+};
+
+/// The times alone; reads no image.
+StampSurvey survey_stamps(const Dataset& dataset);
+
+/// Reads every frame. `go_on` is told how many are done and ends the survey early by returning false.
+DatasetSurvey survey_dataset(const Dataset& dataset, const std::function<bool(int)>& go_on = {});
+
+}  // namespace surefield
