@@ -134,6 +134,13 @@ void write_png(const std::filesystem::path& file, const cv::Mat& image) {
   encode(file, ".png", is_float ? to_8bit(image) : image, {});
 }
 
+void write_jpeg(const std::filesystem::path& file, const cv::Mat& image, int quality) {
+  if (image.empty() || image.type() != CV_8UC3) {
+    throw InputError(file, "an image of this type cannot be written as JPEG");
+  }
+  encode(file, ".jpg", image, {cv::IMWRITE_JPEG_QUALITY, quality});
+}
+
 Camera read_camera(const std::filesystem::path& file) {
   const JsonObject object(file);
   Camera camera;

@@ -40,6 +40,10 @@ cv::Mat read_tiff(const std::filesystem::path& file);
 /// or the file cannot be written.
 void write_png(const std::filesystem::path& file, const cv::Mat& image);
 
+/// Writes an RGB image (CV_8UC3) as JPEG of that quality, 1 to 100. Throws InputError when the type is
+/// another or the file cannot be written.
+void write_jpeg(const std::filesystem::path& file, const cv::Mat& image, int quality);
+
 /// Reads a camera from JSON: numbers width, height, fx, fy, cx, cy (pixels) and world_to_camera, four rows of
 /// four numbers (metres). Throws InputError naming the key that is missing or wrong, also where the rotation
 /// is none.
