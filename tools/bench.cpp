@@ -115,12 +115,12 @@ TileShape tile_shape(const gpu::Device& device, const std::string& text) {
   return shape;
 }
 
-std::vector<BenchScene> scenes_of(const BenchOptions& options) {
+std::vector<BenchScene> scenes_of(gpu::Device& device, const BenchOptions& options) {
   if (!options.map.empty()) return {load_bench_scene(options.map, options.camera)};
   std::vector<BenchScene> scenes;
   for (const std::string& name : bench_scene_names())
-    if (options.scene == "all") scenes.push_back(make_bench_scene(name));
-  if (options.scene != "all") scenes.push_back(make_bench_scene(options.scene));
+    if (options.scene == "all") scenes.push_back(make_bench_scene(device, name));
+  if (options.scene != "all") scenes.push_back(make_bench_scene(device, options.scene));
   return scenes;
 }
 
@@ -133,7 +133,7 @@ int run(const BenchOptions& options) {
   fmt::print("at best {:.1f} GFLOP/s of multiply-adds, {:.2f} G exponentials/s\n", peak.gflops,
              peak.exponentials_per_ns);
   json scenes = json::array();
-  for (const BenchScene& scene : scenes_of(options)) {
+  for (const BenchScene& scene : scenes_of(device, options)) {
     const SceneTimes times = measure_scene(device, shape, scene, options.repeat);
     print(times);
     std::fflush(stdout);

@@ -11,7 +11,8 @@
 #include "engine/io/files.h"
 #include "engine/io/json_file.h"
 #include "engine/io/ply.h"
-#include "engine/synth/room.h"
+#include "engine/synth/camera_path.h"
+#include "engine/synth/scene_renderer.h"
 
 namespace surefield {
 
@@ -45,56 +46,68 @@ Eigen::Vector3d ray(const Intrinsics& k, const Pose& to_world, double u, double 
   return to_world.linear() * Eigen::Vector3d((u - k.cx) / k.fx, (v - k.cy) / k.fy, 1);
 }
 
-/// Puts Gaussian `i` where the ray of `pixel` in the view `to_world` meets the room; `spacing` in pixels.
-void place(const SyntheticRoom& room, const Intrinsics& k, const Pose& to_world, const Eigen::Vector2d& pixel,
-           double spacing, Random& random, std::size_t i, GaussianCloud* cloud) {
-  const Eigen::Vector3d origin = to_world.translation();
-  const Eigen::Vector3d direction = ray(k, to_world, pixel.x(), pixel.y());
-  const SurfacePoint point = room.cast(origin, direction);
-  cloud->means[i] = (origin + point.distance * direction).cast<float>();
+/// A view of the office.
+struct SeenView {
+  Camera camera;
+  SceneImages images;
+};
+
+/// Puts Gaussian `i` on the surface that the view shows at `pixel`; `spacing` in pixels.
+void place(const Scene& office, const SeenView& view, const cv::Point& pixel, double spacing, Random& random,
+           std::size_t i, GaussianCloud* cloud) {
+  const Intrinsics& k = view.camera.intrinsics;
+  const Pose to_world = view.camera.world_to_camera.inverse();
+  const double depth = view.images.depth.at<float>(pixel);
+  const Eigen::Vector3d point = to_world.translation() + depth * ray(k, to_world, pixel.x, pixel.y);
+  cloud->means[i] = point.cast<float>();
 
   // The third axis lies along the surface's normal.
-  const double radius = 0.6 * spacing * point.distance / k.fx;
+  const double radius = 0.6 * spacing * depth / k.fx;
   for (int axis = 0; axis < 3; ++axis)
     cloud->log_scales[i][axis] =
         static_cast<float>(std::log(radius * (axis == 2 ? 0.3 : 1)) + random.uniform(-0.5, 0.5));
+  const Shape& shape = office.shapes[static_cast<std::size_t>(view.images.shapes.at<int>(pixel))];
   const Eigen::Quaterniond rotation =
-      Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), point.normal) *
+      Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), shape.outward_normal(point)) *
       Eigen::AngleAxisd(random.uniform(0, 3.14), Eigen::Vector3d::UnitZ());
   cloud->rotations[i] = Eigen::Vector4d(rotation.w(), rotation.x(), rotation.y(), rotation.z()).cast<float>();
 
   const bool faint = random.uniform(0, 1) < 0.1;
   const double opacity = faint ? random.uniform(0.05, 0.5) : random.uniform(0.5, 0.99);
   cloud->opacity_logits[i] = static_cast<float>(std::log(opacity / (1 - opacity)));
-  const Eigen::Vector3f colour = texture(*point.material, point.uv);
+  const auto& colour = view.images.colour.at<cv::Vec3b>(pixel);
   constexpr float kSh0 = 0.28209479f;
-  for (std::size_t c = 0; c < 3; ++c) cloud->sh[3 * i + c] = (colour[static_cast<int>(c)] - 0.5f) / kSh0;
+  for (int c = 0; c < 3; ++c)
+    cloud->sh[3 * i + static_cast<std::size_t>(c)] = (static_cast<float>(colour[c]) / 255 - 0.5f) / kSh0;
 }
 
 /// Random pixels, row by row.
-std::vector<Eigen::Vector2d> scan_pixels(const Intrinsics& k, std::size_t count, Random& random) {
-  std::vector<Eigen::Vector2d> pixels(count);
-  for (Eigen::Vector2d& pixel : pixels)
-    pixel = {random.uniform(-0.5, k.width - 0.5), random.uniform(-0.5, k.height - 0.5)};
-  std::sort(pixels.begin(), pixels.end(), [](const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
-    return std::pair(std::floor(a.y()), a.x()) < std::pair(std::floor(b.y()), b.x());
-  });
+std::vector<cv::Point> scan_pixels(const Intrinsics& k, std::size_t count, Random& random) {
+  std::vector<cv::Point> pixels(count);
+  for (cv::Point& pixel : pixels) {
+    pixel.x = static_cast<int>(random.uniform(0, k.width));
+    pixel.y = static_cast<int>(random.uniform(0, k.height));
+  }
+  std::sort(pixels.begin(), pixels.end(),
+            [](const cv::Point& a, const cv::Point& b) { return std::pair(a.y, a.x) < std::pair(b.y, b.x); });
   return pixels;
 }
 
 /// Like a map that grew keyframe by keyframe, each adding its pixels row by row: neighbours in the map are
 /// often neighbours in the image.
-void fill_map(const SyntheticRoom& room, const Intrinsics& k, GaussianCloud* cloud) {
+void fill_map(const Scene& office, const SceneRenderer& renderer, const CameraPath& path, BenchScene* scene) {
+  const Intrinsics& k = scene->camera.intrinsics;
+  const std::size_t count = scene->cloud.size();
   const double pixels = static_cast<double>(k.width) * k.height;
-  const double spacing = std::sqrt(pixels / (kVisibleFraction * static_cast<double>(cloud->size())));
+  const double spacing = std::sqrt(pixels / (kVisibleFraction * static_cast<double>(count)));
   Random random;
-  for (int view = 0; view < kViews; ++view) {
-    const double seconds = kSecondsAround * (2.0 * view / (kViews - 1) - 1);
-    const Pose to_world = room.world_to_camera(seconds).inverse();
-    const std::size_t begin = cloud->size() * view / kViews, end = cloud->size() * (view + 1) / kViews;
+  for (int i = 0; i < kViews; ++i) {
+    const Camera camera{k, path.world_to_camera(2 * kSecondsAround * i / (kViews - 1))};
+    const SeenView view{camera, renderer.render(camera)};
+    const std::size_t begin = count * i / kViews, end = count * (i + 1) / kViews;
     const auto targets = scan_pixels(k, end - begin, random);
-    for (std::size_t i = begin; i < end; ++i)
-      place(room, k, to_world, targets[i - begin], spacing, random, i, cloud);
+    for (std::size_t n = begin; n < end; ++n)
+      place(office, view, targets[n - begin], spacing, random, n, &scene->cloud);
   }
 }
 
@@ -106,7 +119,7 @@ std::vector<std::string> bench_scene_names() {
   return names;
 }
 
-BenchScene make_bench_scene(std::string_view name) {
+BenchScene make_bench_scene(gpu::Device& device, std::string_view name) {
   const SceneSize* size = nullptr;
   for (const SceneSize& candidate : kScenes)
     if (name == candidate.name) size = &candidate;
@@ -114,7 +127,9 @@ BenchScene make_bench_scene(std::string_view name) {
     throw InputError(
         fmt::format("no scene \"{}\" to measure; there are: {}", name, fmt::join(bench_scene_names(), ", ")));
 
-  const SyntheticRoom room;
+  const Scene office = make_scene("office", 1);
+  const CameraPath path(office, path_style("handheld"), 1, 2 * kSecondsAround);
+  const SceneRenderer renderer(device, office);
   BenchScene scene{.name = size->name};
   Intrinsics& k = scene.camera.intrinsics;
   k = {.width = size->width,
@@ -123,15 +138,11 @@ BenchScene make_bench_scene(std::string_view name) {
        .fy = kFocalPerWidth * size->width,
        .cx = 0.5 * (size->width - 1),
        .cy = 0.5 * (size->height - 1)};
-  scene.camera.world_to_camera = room.world_to_camera(0);
-  const Pose to_world = scene.camera.world_to_camera.inverse();
-  for (int v = 0; v < k.height; ++v)
-    for (int u = 0; u < k.width; ++u)
-      scene.sensor_depth.push_back(
-          static_cast<float>(room.cast(to_world.translation(), ray(k, to_world, u, v)).distance));
-
+  scene.camera.world_to_camera = path.world_to_camera(kSecondsAround);
+  const SceneImages seen = renderer.render(scene.camera);
+  scene.sensor_depth.assign(seen.depth.begin<float>(), seen.depth.end<float>());
   scene.cloud.resize(static_cast<std::size_t>(size->gaussians));
-  fill_map(room, k, &scene.cloud);
+  fill_map(office, renderer, path, &scene);
   return scene;
 }
 

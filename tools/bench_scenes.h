@@ -4,6 +4,7 @@
 #include <string_view>
 #include <vector>
 
+#include "engine/gpu/device.h"
 #include "engine/splat/camera.h"
 #include "engine/splat/gaussian_cloud.h"
 
@@ -20,10 +21,10 @@ struct BenchScene {
 /// The built-in scenes, from small to large.
 std::vector<std::string> bench_scene_names();
 
-/// The built-in scene of that name: the Gaussians lie on the surfaces of SyntheticRoom, as a SLAM map of some
-/// views around the camera's would have them: about as large as they are apart, flat, mostly opaque. The same
-/// on every run. Throws InputError for an unknown name.
-BenchScene make_bench_scene(std::string_view name);
+/// The built-in scene of that name: the Gaussians lie on the surfaces of the synthetic office, as a SLAM map
+/// of some views around the camera's would have them: about as large as they are apart, flat, mostly opaque.
+/// The same on every run. Throws InputError for an unknown name.
+BenchScene make_bench_scene(gpu::Device& device, std::string_view name);
 
 /// A scene from files: the map (read_ply) and a camera, a JSON object with width, height, fx, fy, cx, cy and
 /// world_to_camera (16 numbers, row by row). Throws InputError.

@@ -20,7 +20,10 @@ std::unique_ptr<Dataset> open_run_dataset(const RunOptions& options) {
     throw InputError("--dataset synthetic has no files of the format " + options.format +
                      "; leave --format out (a folder of that name is given as ./synthetic)");
   }
-  return std::make_unique<SyntheticDataset>();
+  gpu::DeviceOptions device;
+  device.selector = options.engine.device;
+  device.validate = options.engine.validate;
+  return std::make_unique<SyntheticDataset>(device);
 }
 
 std::string dataset_path(const RunOptions& options) {

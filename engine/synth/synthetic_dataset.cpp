@@ -3,16 +3,34 @@
 #include <utility>
 
 #include "engine/io/error.h"
+#include "engine/synth/random.h"
 
 namespace surefield {
 
-SyntheticDataset::SyntheticDataset(const SynthSettings& settings)
-    : settings_(settings), room_(settings.seed) {
+namespace {
+
+constexpr double kFrameRate = 30;
+constexpr int kColourPoses = 9;     // in which the way of the camera during one colour image is cut
+constexpr int kBlurredSamples = 8;  // of colour, a pixel
+
+const SynthSettings& checked(const SynthSettings& settings) {
   if (settings.width < 1 || settings.height < 1 || settings.frames < 1) {
     throw InputError("synthetic sequence: width, height and frames must be at least 1");
   }
+  return settings;
+}
+
+}  // namespace
+
+SyntheticDataset::SyntheticDataset(const gpu::DeviceOptions& device, const SynthSettings& settings)
+    : settings_(checked(settings)),
+      scene_(make_scene(settings.scene, settings.seed)),
+      path_(scene_, path_style(settings.path), settings.seed, settings.frames / kFrameRate),
+      device_(std::make_unique<gpu::Device>(device)),
+      renderer_(*device_, scene_, settings.moving_object) {
+  kinect_.seed = settings.seed;
   for (int i = 0; i < size(); ++i) {
-    ground_truth_.push_back({timestamp(i), room_.world_to_camera(timestamp(i)).inverse()});
+    ground_truth_.push_back({timestamp(i), path_.world_to_camera(timestamp(i)).inverse()});
   }
 }
 
@@ -26,10 +44,43 @@ Intrinsics SyntheticDataset::intrinsics() const {
           0.5 * (settings_.height - 1)};
 }
 
+double SyntheticDataset::colour_timestamp(int i) const {
+  return timestamp(i) + (settings_.sensor == SensorKind::Kinect ? kinect_.colour_delay : 0);
+}
+
+Exposure SyntheticDataset::exposure_of(int i) const {
+  Exposure exposure;
+  exposure.intrinsics = intrinsics();
+  exposure.depth_pose = path_.world_to_camera(timestamp(i));
+  exposure.visitor_seconds = timestamp(i);
+  if (settings_.sensor == SensorKind::Perfect) {
+    exposure.colour_poses = {exposure.depth_pose};
+    return exposure;
+  }
+  const double span = kinect_.readout_seconds + kinect_.exposure_seconds;
+  for (int k = 0; k < kColourPoses; ++k) {
+    const double part = static_cast<double>(k) / (kColourPoses - 1) - 0.5;
+    exposure.colour_poses.push_back(path_.world_to_camera(colour_timestamp(i) + span * part));
+  }
+  exposure.readout = kinect_.readout_seconds / span;
+  exposure.exposure = kinect_.exposure_seconds / span;
+  exposure.samples = kBlurredSamples;
+  exposure.brightness = kinect_.brightness(timestamp(i));
+  exposure.seed = hash_key(settings_.seed, static_cast<uint32_t>(i));
+  return exposure;
+}
+
 LoadedFrame SyntheticDataset::load(int i) const {
-  Frame frame = room_.render({intrinsics(), room_.world_to_camera(timestamp(i))});
+  SceneImages images = renderer_.render(exposure_of(i));
+  Frame frame;
   frame.index = i;
   frame.timestamp = timestamp(i);
+  frame.colour = std::move(images.colour);
+  frame.depth = std::move(images.depth);
+  if (settings_.sensor == SensorKind::Kinect) {
+    kinect_.add_colour_noise(frame.colour, i);
+    frame.depth = kinect_.depth(frame.depth, intrinsics(), i);
+  }
   return {std::move(frame), ""};
 }
 

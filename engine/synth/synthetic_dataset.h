@@ -1,26 +1,39 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
+#include <string>
 
+#include "engine/gpu/device.h"
 #include "engine/io/dataset.h"
-#include "engine/synth/room.h"
+#include "engine/synth/camera_path.h"
+#include "engine/synth/scene_renderer.h"
+#include "engine/synth/sensor_model.h"
 
 namespace surefield {
 
+/// Which camera takes a synthetic sequence: an ideal one, or one with the errors of KinectModel.
+enum class SensorKind { Perfect, Kinect };
+
 /// Which synthetic sequence to make. The default is the embedded sequence of the demo.
 struct SynthSettings {
-  int width = 320;   ///< pixels
-  int height = 240;  ///< pixels
-  int frames = 60;   ///< number of frames, at 30 a second
-  uint32_t seed = 1;
+  std::string scene = "office";   ///< see scene_names()
+  std::string path = "handheld";  ///< see path_names()
+  int width = 320;                ///< pixels
+  int height = 240;               ///< pixels
+  int frames = 60;                ///< number of frames, at 30 a second
+  uint32_t seed = 1;              ///< of the scene, the path and the sensor
+  SensorKind sensor = SensorKind::Perfect;
+  bool moving_object = false;  ///< somebody walks through the scene; not in its mesh
 };
 
-/// A walk through SyntheticRoom as a sequence with exact ground truth: needs no files, renders each frame
-/// when it is loaded. The same settings give the same bits on every run.
+/// A walk through a synthetic scene as a sequence with exact ground truth: needs no files, renders each frame
+/// when it is loaded. The same settings give the same bits on every run on one device.
 class SyntheticDataset : public Dataset {
  public:
-  /// Throws InputError where a size or the number of frames is not positive.
-  explicit SyntheticDataset(const SynthSettings& settings = {});
+  /// Opens a device of its own. Throws InputError where a setting is wrong, gpu::Error where there is no
+  /// device.
+  explicit SyntheticDataset(const gpu::DeviceOptions& device, const SynthSettings& settings = {});
 
   std::string name() const override { return "synthetic"; }
   std::string format() const override { return "synthetic"; }
@@ -29,14 +42,27 @@ class SyntheticDataset : public Dataset {
   Intrinsics intrinsics() const override;
   /// 1: depth is made in metres and never rounded to steps.
   double depth_unit() const override { return 1.0; }
-  /// i / 30 seconds.
+  /// i / 30 seconds: when the depth image is taken, for which the true pose is given.
   double timestamp(int i) const override { return i / 30.0; }
+  /// The middle of the colour image's exposure; later than timestamp() with the Kinect.
+  double colour_timestamp(int i) const;
+  /// The true pose, camera to world, at any time from the first frame to the last.
+  Pose true_pose(double seconds) const { return path_.world_to_camera(seconds).inverse(); }
   LoadedFrame load(int i) const override;
   const Trajectory* ground_truth() const override { return &ground_truth_; }
 
+  const SynthSettings& settings() const { return settings_; }
+  const Scene& scene() const { return scene_; }
+
  private:
+  Exposure exposure_of(int i) const;
+
   SynthSettings settings_;
-  SyntheticRoom room_;
+  KinectModel kinect_;
+  Scene scene_;
+  CameraPath path_;
+  std::unique_ptr<gpu::Device> device_;
+  SceneRenderer renderer_;
   Trajectory ground_truth_;
 };
 

@@ -1,20 +1,24 @@
 #include <doctest/doctest.h>
 
-#include <cstdlib>
 #include <stdexcept>
 
 #include "engine/eval/trajectory_metrics.h"
 #include "engine/io/frame_stream.h"
 #include "engine/slam/slam.h"
 #include "engine/synth/synthetic_dataset.h"
+#include "tests/support/device.h"
 
 using namespace surefield;
 
 namespace {
 
 EngineOptions options() {
-  const char* selector = std::getenv("SUREFIELD_DEVICE");
-  return {.device = selector ? selector : "", .validate = true};
+  const gpu::DeviceOptions device = testing::device_options();
+  return {.device = device.selector, .validate = true};
+}
+
+SyntheticDataset office(int frames) {
+  return SyntheticDataset(testing::device_options(), {.width = 96, .height = 72, .frames = frames});
 }
 
 SlamSettings quick() {
@@ -35,7 +39,7 @@ struct Run {
 };
 
 Run run(int frames, const SlamSettings& settings) {
-  const SyntheticDataset dataset({.width = 96, .height = 72, .frames = frames});
+  const SyntheticDataset dataset = office(frames);
   FrameStream stream(dataset, {});
   Slam slam(settings, stream.intrinsics(), options());
   while (const auto frame = stream.next()) slam.feed(*frame);
@@ -48,7 +52,7 @@ Run run(int frames, const SlamSettings& settings) {
 
 }  // namespace
 
-TEST_CASE("SLAM follows the synthetic room, and the same run gives the same bits") {
+TEST_CASE("SLAM follows the synthetic office, and the same run gives the same bits") {
   const Run first = run(6, quick());
   REQUIRE(first.trajectory.size() == 6);
   CHECK(evaluate_trajectory(first.trajectory, first.truth).ate.rmse < 0.01);
@@ -68,7 +72,7 @@ TEST_CASE("SLAM follows the synthetic room, and the same run gives the same bits
 }
 
 TEST_CASE("a frame that shows something else is reported as lost after re-tries, and the run goes on") {
-  const SyntheticDataset dataset({.width = 96, .height = 72, .frames = 6});
+  const SyntheticDataset dataset = office(6);
   Slam slam(quick(), dataset.intrinsics(), options());
   for (int i = 0; i < 3; ++i) slam.feed(*dataset.load(i).frame);
   Frame covered = *dataset.load(3).frame;
@@ -83,7 +87,7 @@ TEST_CASE("a frame that shows something else is reported as lost after re-tries,
 }
 
 TEST_CASE("frames of the wrong size and a first frame without depth are refused and change nothing") {
-  const SyntheticDataset dataset({.width = 96, .height = 72, .frames = 2});
+  const SyntheticDataset dataset = office(2);
   Slam slam(quick(), dataset.intrinsics(), options());
   Frame blind = *dataset.load(0).frame;
   blind.depth.setTo(0);

@@ -7,11 +7,16 @@
 #include <vector>
 
 #include "engine/io/error.h"
+#include "tests/support/device.h"
 
 using namespace surefield;
 using Eigen::Vector3d;
 
 namespace {
+
+SyntheticDataset make(const SynthSettings& settings) {
+  return SyntheticDataset(testing::device_options(), settings);
+}
 
 /// What remains after pixels of one frame are moved into another one by the true poses.
 struct WarpResiduals {
@@ -67,18 +72,23 @@ double percentile(std::vector<double> values, double fraction) {
 }  // namespace
 
 TEST_CASE("the true poses carry the pixels of a frame onto the same surfaces five frames later") {
-  const SyntheticDataset dataset({.width = 160, .height = 120});
+  const SyntheticDataset dataset = make({.width = 160, .height = 120});
   const WarpResiduals residuals = warp(dataset, 10, 15);
   const double total = 160.0 * 120.0;
   CHECK(static_cast<double>(residuals.depth.size()) > 0.75 * total);
   CHECK(residuals.hidden < 0.1 * total);
   CHECK(percentile(residuals.depth, 0.5) < 1e-5);
-  CHECK(percentile(residuals.depth, 0.9) < 1e-3);
+  CHECK(percentile(residuals.depth, 0.9) < 4e-3);
   CHECK(percentile(residuals.colour, 0.5) < 6);
 }
 
+TEST_CASE("a frame at 640 x 480 warped into the tenth after it meets the surfaces within half a millimetre") {
+  const SyntheticDataset dataset = make({.width = 640, .height = 480, .frames = 11});
+  CHECK(percentile(warp(dataset, 0, 10).depth, 0.5) < 0.0005);
+}
+
 TEST_CASE("the frames are textured and neither dark nor burnt out") {
-  const SyntheticDataset dataset({.width = 160, .height = 120});
+  const SyntheticDataset dataset = make({.width = 160, .height = 120});
   for (const int i : {0, 59}) {
     const Frame frame = *dataset.load(i).frame;
     cv::Scalar mean, deviation;
@@ -88,12 +98,12 @@ TEST_CASE("the frames are textured and neither dark nor burnt out") {
       CHECK(mean[c] < 200);
       CHECK(deviation[c] > 20);
     }
-    CHECK(cv::countNonZero((frame.depth > 0.3) & (frame.depth < 6.5)) == 160 * 120);
+    CHECK(cv::countNonZero((frame.depth > 0.3) & (frame.depth < 9)) == 160 * 120);
   }
 }
 
 TEST_CASE("frames, stamps and the true trajectory agree") {
-  const SyntheticDataset dataset({.width = 32, .height = 24, .frames = 4, .seed = 7});
+  const SyntheticDataset dataset = make({.width = 32, .height = 24, .frames = 4, .seed = 7});
   CHECK(dataset.size() == 4);
   CHECK(dataset.intrinsics().cx == doctest::Approx(15.5));
   REQUIRE(dataset.ground_truth() != nullptr);
@@ -111,6 +121,8 @@ TEST_CASE("frames, stamps and the true trajectory agree") {
 }
 
 TEST_CASE("a sequence without pixels or frames is refused") {
-  CHECK_THROWS_AS(SyntheticDataset({.width = 0}), InputError);
-  CHECK_THROWS_AS(SyntheticDataset({.frames = 0}), InputError);
+  CHECK_THROWS_AS(make({.width = 0}), InputError);
+  CHECK_THROWS_AS(make({.frames = 0}), InputError);
+  CHECK_THROWS_AS(make({.scene = "moon"}), InputError);
+  CHECK_THROWS_AS(make({.path = "drunk"}), InputError);
 }

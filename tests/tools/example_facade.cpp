@@ -12,16 +12,16 @@
 int main() {
   using namespace surefield;
   try {
+    EngineOptions engine;
+    if (const char* device = std::getenv("SUREFIELD_DEVICE")) engine.device = device;
     // Any dataset does: open_dataset("path/of/a/sequence") recognises the layout of the common ones.
-    const SyntheticDataset dataset({.width = 64, .height = 48, .frames = 3});
+    const SyntheticDataset dataset({.selector = engine.device}, {.width = 64, .height = 48, .frames = 3});
     FrameStream stream(dataset, {});
 
     // Few steps, so that this example takes a moment only; the defaults suit real sequences.
     SlamSettings settings;
     settings.first_iterations = 10;
     settings.first_tracking_iterations = 20;
-    EngineOptions engine;
-    if (const char* device = std::getenv("SUREFIELD_DEVICE")) engine.device = device;
 
     Slam slam(settings, stream.intrinsics(), engine);
     while (const auto frame = stream.next()) {

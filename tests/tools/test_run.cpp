@@ -12,6 +12,7 @@
 #include "engine/io/trajectory.h"
 #include "engine/slam/settings.h"
 #include "engine/synth/synthetic_dataset.h"
+#include "tests/support/device.h"
 #include "tests/tools/support.h"
 
 using namespace surefield;
@@ -36,7 +37,7 @@ void wait_for(const std::filesystem::path& file, const std::string& text) {
 
 /// Writes the first frames of a small synthetic sequence in the layout of Replica.
 void write_replica(const TemporaryFolder& folder, int frames) {
-  const SyntheticDataset dataset({.width = 64, .height = 48, .frames = frames});
+  const SyntheticDataset dataset(testing::device_options(), {.width = 64, .height = 48, .frames = frames});
   const Intrinsics k = dataset.intrinsics();
   const nlohmann::json camera = {{"w", k.width}, {"h", k.height}, {"fx", k.fx},     {"fy", k.fy},
                                  {"cx", k.cx},   {"cy", k.cy},    {"scale", 6553.5}};

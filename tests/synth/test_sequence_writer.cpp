@@ -1,0 +1,129 @@
+#include "engine/synth/sequence_writer.h"
+
+#include <doctest/doctest.h>
+
+#include "engine/io/error.h"
+#include "engine/io/files.h"
+#include "engine/io/triangle_mesh.h"
+#include "tests/io/support.h"
+#include "tests/support/device.h"
+
+using namespace surefield;
+using surefield::test::TemporaryFolder;
+
+namespace {
+
+SyntheticDataset tiny(int frames = 3) {
+  return SyntheticDataset(testing::device_options(),
+                          {.width = 64, .height = 48, .frames = frames, .seed = 2});
+}
+
+void write_all(const std::filesystem::path& folder, SequenceLayout layout, const SyntheticDataset& dataset,
+               int frames) {
+  SequenceWriter writer(folder, layout, dataset);
+  for (int i = 0; i < frames; ++i) writer.write(i);
+  writer.finish();
+}
+
+void check_same_camera(const Intrinsics& a, const Intrinsics& b) {
+  CHECK(a.width == b.width);
+  CHECK(a.height == b.height);
+  CHECK(a.fx == b.fx);
+  CHECK(a.fy == b.fy);
+  CHECK(a.cx == b.cx);
+  CHECK(a.cy == b.cy);
+}
+
+}  // namespace
+
+TEST_CASE("a sequence in the Replica layout reads back with its camera, poses, depth and colour") {
+  const TemporaryFolder folder;
+  const SyntheticDataset dataset = tiny();
+  write_all(folder / "office", SequenceLayout::Replica, dataset, 3);
+  const auto read = open_dataset(folder / "office");
+  CHECK(read->format() == "replica");
+  REQUIRE(read->size() == 3);
+  check_same_camera(read->intrinsics(), dataset.intrinsics());
+  REQUIRE(read->ground_truth() != nullptr);
+  REQUIRE(read->ground_truth()->size() == 3);
+  for (int i = 0; i < 3; ++i) {
+    const auto at = static_cast<std::size_t>(i);
+    CHECK((*read->ground_truth())[at].camera_to_world.matrix().isApprox(
+        (*dataset.ground_truth())[at].camera_to_world.matrix(), 1e-10));
+    const Frame stored = read->load(i).frame.value(), made = dataset.load(i).frame.value();
+    CHECK(cv::norm(stored.depth, made.depth, cv::NORM_INF) < 0.51 / 6553.5);
+    CHECK(cv::norm(stored.colour, made.colour, cv::NORM_L1) / (3 * 64 * 48) < 3);
+  }
+}
+
+TEST_CASE("a sequence in the TUM layout reads back, with stamps apart and a true pose for each") {
+  const TemporaryFolder folder;
+  const SyntheticDataset dataset(testing::device_options(), {.width = 64,
+                                                             .height = 48,
+                                                             .frames = 3,
+                                                             .seed = 2,
+                                                             .sensor = SensorKind::Kinect,
+                                                             .moving_object = true});
+  write_all(folder / "freiburg1_office", SequenceLayout::Tum, dataset, 3);
+  const auto read = open_dataset(folder / "freiburg1_office");  // a name that means another camera elsewhere
+  CHECK(read->format() == "tum");
+  REQUIRE(read->size() == 3);
+  check_same_camera(read->intrinsics(), dataset.intrinsics());
+  const Trajectory& truth = *read->ground_truth();
+  REQUIRE(truth.size() == 6);
+  for (int i = 0; i < 3; ++i) {
+    const double colour = dataset.colour_timestamp(i), depth = dataset.timestamp(i);
+    CHECK(colour - depth == doctest::Approx(0.006));
+    CHECK(std::abs(read->timestamp(i) - colour) < 1e-6);
+    const auto at = static_cast<std::size_t>(2 * i);
+    CHECK(truth[at].camera_to_world.isApprox(dataset.true_pose(depth), 1e-7));
+    CHECK(truth[at + 1].camera_to_world.isApprox(dataset.true_pose(colour), 1e-7));
+    const Frame stored = read->load(i).frame.value(), made = dataset.load(i).frame.value();
+    CHECK(cv::norm(stored.depth, made.depth, cv::NORM_INF) < 0.51 / 5000);
+    CHECK(cv::norm(stored.colour, made.colour, cv::NORM_INF) == 0);
+  }
+}
+
+TEST_CASE("the mesh lies on the surfaces that the frames show") {
+  const TemporaryFolder folder;
+  const SyntheticDataset dataset = tiny(1);
+  write_all(folder / "office", SequenceLayout::Replica, dataset, 1);
+  const TriangleMesh mesh = read_mesh(folder / "office/mesh.ply");
+  CHECK(mesh.triangles.size() > 10000);
+  CHECK(mesh.colours.size() == mesh.vertices.size());
+  const Frame frame = dataset.load(0).frame.value();
+  const Pose to_world = dataset.ground_truth()->front().camera_to_world;
+  const Intrinsics k = dataset.intrinsics();
+  for (int v = 3; v < 48; v += 10) {
+    for (int u = 3; u < 64; u += 10) {
+      const double z = frame.depth.at<float>(v, u);
+      const Eigen::Vector3f point =
+          (to_world * Eigen::Vector3d((u - k.cx) / k.fx * z, (v - k.cy) / k.fy * z, z)).cast<float>();
+      float nearest = 1;
+      for (const auto& vertex : mesh.vertices) nearest = std::min(nearest, (vertex - point).norm());
+      CHECK(nearest < 0.08f);  // vertices are up to 0.1 m apart
+    }
+  }
+}
+
+TEST_CASE("a sequence that was broken off reads back with the frames it has") {
+  const TemporaryFolder folder;
+  const SyntheticDataset dataset = tiny();
+  write_all(folder / "office", SequenceLayout::Replica, dataset, 2);
+  const auto read = open_dataset(folder / "office");
+  CHECK(read->size() == 2);
+  CHECK(read->ground_truth()->size() == 2);
+  CHECK(read_file(folder / "office/synth.json").find("\"complete\": false") != std::string::npos);
+}
+
+TEST_CASE("an earlier sequence is replaced, any other folder with files is refused and left alone") {
+  const TemporaryFolder folder;
+  const SyntheticDataset dataset = tiny();
+  write_all(folder / "office", SequenceLayout::Replica, dataset, 3);
+  write_all(folder / "office", SequenceLayout::Replica, dataset, 1);
+  CHECK(open_dataset(folder / "office")->size() == 1);
+
+  folder.write("holiday/results/frame000000.jpg", "mine");
+  CHECK_THROWS_AS(SequenceWriter(folder / "holiday", SequenceLayout::Replica, dataset), InputError);
+  CHECK(read_file(folder / "holiday/results/frame000000.jpg") == "mine");
+}
