@@ -32,6 +32,7 @@ void add_commands(CLI::App& program, surefield::Action& action) {
   surefield::add_fetch(program, action);
   surefield::add_render(program, action);
   surefield::add_mesh(program, action);
+  surefield::add_synth(program, action);
   surefield::add_bench(program, action);
   surefield::add_devices(program, action);
 }
