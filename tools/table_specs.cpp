@@ -61,6 +61,12 @@ std::vector<TableSpec> make_specs() {
   const std::vector<std::string> tum = {"fr1_desk", "fr1_desk2", "fr1_room", "fr2_xyz", "fr3_office"};
   const std::vector<std::string> scannet = {"scene0000", "scene0059", "scene0106",
                                             "scene0169", "scene0181", "scene0207"};
+  const std::vector<std::string> synthetic = {"office", "apartment", "corridor", "hall"};
+  std::vector<TableMetric> own = image_metrics();
+  own.insert(own.begin(), kAte);
+  const std::vector<TableMetric> surface = surface_metrics();
+  own.insert(own.end(), surface.begin(), surface.end());
+  own.push_back({"frames/s", 2, {"metrics.json", "/time/frames_per_second"}});
   return {{"tracking-replica", "Tracking on Replica", "replica", kReplica, {kAte}},
           {"tracking-tum", "Tracking on TUM RGB-D", "tum", tum, {kAte}},
           {"tracking-scannet", "Tracking on ScanNet", "scannet", scannet, {kAte}},
@@ -88,7 +94,8 @@ std::vector<TableSpec> make_specs() {
             {"no-variance", "Surefield without L_var"},
             {"no-align-variance", "Surefield without L_align and L_var"},
             full},
-           true}};
+           true},
+          {"synthetic", "Synthetic scenes", "synthetic", synthetic, own}};
 }
 
 }  // namespace

@@ -117,6 +117,19 @@ TEST_CASE("reproduce measures surfaces where there is a true mesh, and says wher
   CHECK(contains(row, fmt::format("| {:.2f} | - |", accuracy)));
 }
 
+TEST_CASE("[slow] reproduce makes synthetic scenes itself, and measures their surfaces") {
+  const TemporaryFolder folder;
+  const std::string arguments = "synthetic --frames 3 --scale 0.1 --out '" + (folder / "out").string() + "'";
+  const Outcome outcome = reproduce(folder, arguments);
+  REQUIRE_MESSAGE(outcome.code == 0, outcome.err, outcome.out);
+  const std::string tables = read_file(folder / "out/tables.md");
+  for (const char* metric : {"ATE RMSE [cm]", "PSNR [dB]", "Accuracy, nearest triangle [cm]"}) {
+    CAPTURE(metric);
+    const std::string row = row_of(tables, "Synthetic scenes", std::string("**Surefield** | ") + metric);
+    CHECK_FALSE(contains(row, "| - |"));
+  }
+}
+
 TEST_CASE("tables give mean and spread over seeds, and a mean over scenes only where all were run") {
   const TemporaryFolder folder;
   const auto write_run = [&](const std::string& place, double ate, const std::string& status = "completed") {
