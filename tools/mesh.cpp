@@ -36,7 +36,7 @@ void add_mesh(CLI::App& program, Action& action) {
   mesh->add_option("--source", options->source,
                    "Whose depth and colour: the map's (rendered) or the sensor's")
       ->transform(CLI::CheckedTransformer(sources))
-      ->default_str("rendered");
+      ->option_text("rendered|sensor [rendered]");
   mesh->add_option("--trajectory", options->trajectory,
                    "Poses in TUM format, or \"true\" for the dataset's own; default: the run's");
   mesh->add_option("--voxel", options->fusion.voxel, "Side of a voxel, metres")->capture_default_str();

@@ -1,0 +1,53 @@
+#include <fstream>
+
+#include "engine/io/dataset.h"
+#include "engine/io/triangle_mesh.h"
+#include "tests/tools/support.h"
+
+using namespace surefield;
+using namespace surefield::test;
+
+namespace {
+
+/// Writes the shortest of sequences.
+Outcome synth_command(const TemporaryFolder& folder, const std::string& out,
+                      const std::vector<std::string>& more = {}) {
+  std::vector<std::string> arguments = {"synth",  "--frames", "2",     "--size",    "64x48",
+                                        "--path", "robot",    "--out", folder / out};
+  arguments.insert(arguments.end(), more.begin(), more.end());
+  return surefield_command(arguments, folder.path());
+}
+
+}  // namespace
+
+TEST_CASE("synth writes both layouts with poses and the true mesh, and the readers recognise them") {
+  const TemporaryFolder folder;
+  for (const std::string layout : {"replica", "tum"}) {
+    CAPTURE(layout);
+    const Outcome outcome = synth_command(folder, layout, {"--layout", layout, "--sensor", "kinect"});
+    REQUIRE_MESSAGE(outcome.code == 0, outcome.err);
+    const auto dataset = open_dataset(folder / layout);
+    CHECK(dataset->format() == layout);
+    CHECK(dataset->size() == 2);
+    REQUIRE(dataset->ground_truth() != nullptr);
+    CHECK(dataset->load(1).frame.has_value());
+    CHECK(read_mesh(folder / (layout + "/mesh.ply")).triangles.size() > 1000);
+  }
+}
+
+TEST_CASE("synth names what is wrong with its options, and leaves other people's folders alone") {
+  const TemporaryFolder folder;
+  for (const auto& [option, value] :
+       {std::pair{"--scene", "castle"}, {"--path", "flying"}, {"--frames", "0"}}) {
+    const Outcome outcome =
+        surefield_command({"synth", option, value, "--out", folder / "wrong"}, folder.path());
+    CHECK(outcome.code == 2);
+    CHECK_MESSAGE(contains(outcome.err, std::string(option).substr(2)), outcome.err);
+  }
+  std::filesystem::create_directory(folder / "mine");
+  std::ofstream(folder / "mine/thesis.txt") << "all of it";
+  const Outcome outcome = synth_command(folder, "mine");
+  CHECK(outcome.code == 2);
+  CHECK(contains(outcome.err, "mine"));
+  CHECK(std::filesystem::exists(folder / "mine/thesis.txt"));
+}
