@@ -58,8 +58,10 @@ Controls follow(const Scene& scene, const PathStyle& style, RandomStream random,
   const std::size_t round = scene.circuit.size();
   const auto first = static_cast<std::size_t>(random.index(static_cast<int>(round)));
   const auto off = [&](double size) {
-    return Vector3d(random.uniform(-size, size), random.uniform(-size, size),
-                    random.uniform(-0.6 * size, 0.6 * size));
+    // One after the other: the order in which a call's arguments are computed differs between compilers.
+    const double z = random.uniform(-0.6 * size, 0.6 * size);
+    const double y = random.uniform(-size, size), x = random.uniform(-size, size);
+    return Vector3d(x, y, z);
   };
   for (std::size_t i = 0; i < stops; ++i) {
     const Waypoint& stop = scene.circuit[(first + i) % round];

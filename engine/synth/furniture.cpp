@@ -119,7 +119,10 @@ void Furniture::shelf(const Spot& spot, double width, int boards) {
     const int what = b_.random.index(3);
     if (what == 0) b_.box({middle, 0, z}, {0.6 * rest, 0.20, b_.random.uniform(0.14, 0.26)}, p_.cardboard);
     if (what == 1) b_.ellipsoid({middle, 0, z + 0.09}, {0.09, 0.09, 0.09}, any(p_.gaudy));
-    if (what == 2) b_.cylinder({middle, 0, z}, 0.06, b_.random.uniform(0.15, 0.25), any(p_.gaudy));
+    if (what == 2) {
+      const int glaze = any(p_.gaudy);
+      b_.cylinder({middle, 0, z}, 0.06, b_.random.uniform(0.15, 0.25), glaze);
+    }
   }
 }
 
@@ -258,12 +261,14 @@ void Furniture::thicket(const Spot& spot, double height) {
   b_.box({0, 0, 0}, {0.70, 0.30, 0.32}, p_.white_lacquer);
   b_.box({0, 0, 0.32}, {0.64, 0.24, 0.006}, p_.soil);
   for (int i = 0; i < 36; ++i) {
-    const Vector3d root(b_.random.uniform(-0.30, 0.30), b_.random.uniform(-0.10, 0.10), 0.32);
-    const Vector3d lean(b_.random.uniform(-0.10, 0.10), b_.random.uniform(-0.12, 0.06),
-                        height * b_.random.uniform(0.5, 0.8));
+    const double root_y = b_.random.uniform(-0.10, 0.10), root_x = b_.random.uniform(-0.30, 0.30);
+    const double rise = height * b_.random.uniform(0.5, 0.8);
+    const double lean_y = b_.random.uniform(-0.12, 0.06), lean_x = b_.random.uniform(-0.10, 0.10);
+    const Vector3d root(root_x, root_y, 0.32), lean(lean_x, lean_y, rise);
     b_.rod(root, root + lean, b_.random.uniform(0.003, 0.006), p_.bark);
     const Vector3d at = root + b_.random.uniform(0.55, 1) * lean;
-    const Vector3d along = polar(1, b_.random.uniform(0, 2 * kPi), b_.random.uniform(-0.2, 0.8)).normalized();
+    const double up = b_.random.uniform(-0.2, 0.8);
+    const Vector3d along = polar(1, b_.random.uniform(0, 2 * kPi), up).normalized();
     b_.leaf(at + 0.07 * along, {0.075, 0.018, 0.002}, along, Vector3d(0.1, 0.2, 1), p_.leaf);
   }
 }

@@ -61,7 +61,8 @@ void shelves(SceneBuilder& b, Furniture& f) {
 }
 
 void meeting(SceneBuilder& b, Furniture& f) {
-  const Vector3d middle(3.5 + b.random.uniform(-0.15, 0.15), 2.45 + b.random.uniform(-0.1, 0.1), 0);
+  const double y = 2.45 + b.random.uniform(-0.1, 0.1), x = 3.5 + b.random.uniform(-0.15, 0.15);
+  const Vector3d middle(x, y, 0);
   f.rug({middle, 0}, 2.9, 2.3);
   const Vector3d floor = middle + Vector3d(0, 0, 0.012), top = floor + Vector3d(0, 0, 0.74);
   f.round_table({floor, 0}, 0.62);

@@ -15,7 +15,8 @@ void Furniture::work_place(const Spot& desk) {
   const auto spot = [&](double x, double y, double turn) {
     return Spot{frame * Vector3d(x, y, kTop), desk.turn + turn};
   };
-  b_.begin("monitor", spot(b_.random.uniform(-0.1, 0.1), 0.17, b_.random.uniform(-8, 8)));
+  const double monitor_turn = b_.random.uniform(-8, 8);
+  b_.begin("monitor", spot(b_.random.uniform(-0.1, 0.1), 0.17, monitor_turn));
   b_.box({0, 0, 0}, {0.22, 0.16, 0.012}, p_.black_plastic);
   b_.box({0, 0.04, 0.012}, {0.05, 0.03, 0.28}, p_.black_plastic);
   b_.box({0, 0.005, 0.12}, {0.56, 0.03, 0.34}, p_.black_plastic);
@@ -41,8 +42,9 @@ void Furniture::books(const Spot& top) {
   const int count = 2 + b_.random.index(4);
   for (int i = 0; i < count; ++i) {
     const double thickness = b_.random.uniform(0.018, 0.045);
-    b_.box({0, 0, z}, {b_.random.uniform(0.15, 0.20), b_.random.uniform(0.20, 0.26), thickness},
-           any(p_.books), b_.random.uniform(-18, 18));
+    const double turn = b_.random.uniform(-18, 18);
+    const int cover = any(p_.books);
+    b_.box({0, 0, z}, {b_.random.uniform(0.15, 0.20), b_.random.uniform(0.20, 0.26), thickness}, cover, turn);
     z += thickness;
   }
 }
@@ -77,9 +79,11 @@ void Furniture::laptop(const Spot& top) {
 
 void Furniture::papers(const Spot& top) {
   b_.begin("papers", top);
-  for (int i = 0; i < 3; ++i)
+  for (int i = 0; i < 3; ++i) {
+    const double turn = b_.random.uniform(-14, 14);
     b_.box({b_.random.uniform(-0.02, 0.02), b_.random.uniform(-0.02, 0.02), 0.002 * i}, {0.21, 0.297, 0.002},
-           i == 2 ? p_.posters[4] : p_.white_paint, b_.random.uniform(-14, 14));
+           i == 2 ? p_.posters[4] : p_.white_paint, turn);
+  }
 }
 
 void Furniture::desk_lamp(const Spot& top) {
