@@ -17,8 +17,6 @@ namespace surefield {
 
 namespace {
 
-using nlohmann::json;
-
 constexpr const char* kHelp =
     "Measures rendering and its gradients, pass by pass, on a room seen from inside.\n"
     "\n"
@@ -68,8 +66,8 @@ void print(const SceneTimes& times) {
   }
 }
 
-json to_json(const StepSamples& step, double ns) {
-  json passes = json::array();
+nlohmann::json to_json(const StepSamples& step, double ns) {
+  nlohmann::json passes = nlohmann::json::array();
   for (const PassSamples& pass : step.passes)
     passes.push_back({{"pass", pass.pass},
                       {"dispatches", pass.dispatches},
@@ -84,8 +82,8 @@ json to_json(const StepSamples& step, double ns) {
           {"passes", passes}};
 }
 
-json to_json(const SceneTimes& times) {
-  json steps;
+nlohmann::json to_json(const SceneTimes& times) {
+  nlohmann::json steps;
   for (const auto& [name, step] : steps_of(times)) steps[name] = to_json(*step, ns_per_pair(times, *step));
   return {{"scene", times.name},
           {"gaussians", times.gaussians},
@@ -132,7 +130,7 @@ int run(const BenchOptions& options) {
              shape.lanes, shape.width, shape.height);
   fmt::print("at best {:.1f} GFLOP/s of multiply-adds, {:.2f} G exponentials/s\n", peak.gflops,
              peak.exponentials_per_ns);
-  json scenes = json::array();
+  nlohmann::json scenes = nlohmann::json::array();
   for (const BenchScene& scene : scenes_of(device, options)) {
     const SceneTimes times = measure_scene(device, shape, scene, options.repeat);
     print(times);
@@ -140,15 +138,15 @@ int run(const BenchOptions& options) {
     scenes.push_back(to_json(times));
   }
   if (options.json_file.empty()) return kSuccess;
-  const json result = {{"device", device.report().name},
-                       {"driver", device.report().driver},
-                       {"subgroup", shape.lanes},
-                       {"tile_width", shape.width},
-                       {"tile_height", shape.height},
-                       {"peak_gflops", peak.gflops},
-                       {"peak_gexp", peak.exponentials_per_ns},
-                       {"repeat", options.repeat},
-                       {"scenes", scenes}};
+  const nlohmann::json result = {{"device", device.report().name},
+                                 {"driver", device.report().driver},
+                                 {"subgroup", shape.lanes},
+                                 {"tile_width", shape.width},
+                                 {"tile_height", shape.height},
+                                 {"peak_gflops", peak.gflops},
+                                 {"peak_gexp", peak.exponentials_per_ns},
+                                 {"repeat", options.repeat},
+                                 {"scenes", scenes}};
   write_file(options.json_file, [&](std::ostream& out) { out << result.dump(2) << '\n'; });
   return kSuccess;
 }

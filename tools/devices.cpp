@@ -9,7 +9,7 @@ namespace surefield {
 
 namespace {
 
-constexpr const char* kExamples =
+constexpr const char* kDevicesExamples =
     "Examples:\n"
     "  surefield devices\n"
     "  surefield run --device 1 ...        # by the number in the list, or by a part of the name\n";
@@ -37,7 +37,7 @@ int list() {
 void add_devices(CLI::App& program, Action& action) {
   CLI::App* devices = program.add_subcommand(
       "devices", "Lists the Vulkan devices of this machine and what each of them lacks");
-  devices->footer(kExamples);
+  devices->footer(kDevicesExamples);
   devices->callback([&action] { action = list; });
 }
 

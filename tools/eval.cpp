@@ -16,7 +16,7 @@ namespace surefield {
 
 namespace {
 
-constexpr const char* kExamples =
+constexpr const char* kEvalExamples =
     "With --run, the results of surefield run are measured: the trajectory, and the map's images of all "
     "frames\n"
     "and of those that were no keyframes; runtime and memory are shown beside them. With --trajectory, any "
@@ -104,7 +104,7 @@ void add_eval(CLI::App& program, Action& action) {
   truth->needs(trajectory);
   add_mesh_options(*eval, options->mesh);
   eval->add_option("--json", options->run.json, "Also writes what was measured to this file");
-  eval->footer(kExamples);
+  eval->footer(kEvalExamples);
   eval->callback([options, &action] { action = [options] { return evaluate(*options); }; });
 }
 

@@ -13,7 +13,7 @@ namespace surefield {
 
 namespace {
 
-constexpr const char* kExamples =
+constexpr const char* kFetchExamples =
     "The terms of the dataset are printed first; who downloads accepts them. Ctrl-C ends the download, and "
     "the\n"
     "same command goes on with it.\n"
@@ -23,7 +23,7 @@ constexpr const char* kExamples =
     "  surefield fetch fr1/desk --out data\n"
     "  surefield run --dataset data/rgbd_dataset_freiburg1_desk --out out/desk\n";
 
-constexpr double kMegabyte = 1e6;
+constexpr double kBytesPerMegabyte = 1e6;
 
 struct FetchOptions {
   std::string name;
@@ -51,8 +51,8 @@ int fetch(const FetchOptions& options) {
     result = fetch_dataset(dataset, options.out, [&](const std::string& step, uint64_t done, uint64_t total) {
       const double fraction = total > 0 ? static_cast<double>(done) / static_cast<double>(total) : -1;
       line.show(fraction,
-                fmt::format("{} {:.0f} of {} MB", step, static_cast<double>(done) / kMegabyte,
-                            total > 0 ? fmt::format("{:.0f}", static_cast<double>(total) / kMegabyte)
+                fmt::format("{} {:.0f} of {} MB", step, static_cast<double>(done) / kBytesPerMegabyte,
+                            total > 0 ? fmt::format("{:.0f}", static_cast<double>(total) / kBytesPerMegabyte)
                                       : std::string("?")));
       return !interrupted();
     });
@@ -71,7 +71,7 @@ void add_fetch(CLI::App& program, Action& action) {
   command->add_option("name", options->name, "Name of the dataset, see --list");
   command->add_option("--out", options->out, "Folder to put it in")->capture_default_str();
   command->add_flag("--list", options->list, "Lists what can be fetched");
-  command->footer(kExamples);
+  command->footer(kFetchExamples);
   command->callback([options, &action] { action = [options] { return fetch(*options); }; });
 }
 

@@ -18,7 +18,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr const char* kExamples =
+constexpr const char* kInspectExamples =
     "Reads every frame and tells what was recognised, which files are broken, and what the depth images "
     "hold.\n"
     "Then it warps frames into later ones by the true poses, and lays depth edges on colour edges, while "
@@ -226,7 +226,7 @@ void add_inspect(CLI::App& program, Action& action) {
       ->check(CLI::IsMember(known_formats()))
       ->capture_default_str();
   command->add_option("--json", options->json, "Also writes everything to this file");
-  command->footer(kExamples);
+  command->footer(kInspectExamples);
   command->callback([options, &action] { action = [options] { return inspect(*options); }; });
 }
 

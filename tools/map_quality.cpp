@@ -12,6 +12,8 @@ namespace surefield {
 
 namespace {
 
+using Json = nlohmann::ordered_json;
+
 /// The scores of one frame.
 struct FrameScores {
   double psnr = 0;
@@ -66,7 +68,6 @@ class ScoreSum {
 };
 
 nlohmann::ordered_json scores_json(const ImageScores& scores) {
-  using Json = nlohmann::ordered_json;
   const auto number = [&](double value) { return scores.frames > 0 ? Json(value) : Json(nullptr); };
   Json json = {{"frames", scores.frames},
                {"psnr_db", number(scores.psnr)},

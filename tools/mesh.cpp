@@ -9,7 +9,7 @@ namespace surefield {
 
 namespace {
 
-constexpr const char* kExamples =
+constexpr const char* kMeshExamples =
     "Fuses depth and colour images in a truncated signed distance field and writes its surface. The images "
     "are\n"
     "those of the run's map, rendered at the estimated poses, or, for comparison, the sensor's. The mesh "
@@ -52,7 +52,7 @@ void add_mesh(CLI::App& program, Action& action) {
   mesh->add_option("--out", options->out, "PLY file of the mesh")->required();
   mesh->add_option("--device", options->engine.device,
                    "Number or part of the name of the device, see surefield devices; default: the best");
-  mesh->footer(kExamples);
+  mesh->footer(kMeshExamples);
   mesh->callback([options, &action] { action = [options] { return fuse_mesh(*options); }; });
 }
 

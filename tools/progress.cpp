@@ -6,11 +6,12 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "tools/progress_line.h"
+
 namespace surefield {
 
 namespace {
 
-constexpr int kBarWidth = 24;
 constexpr const char* kClearLine = "\r\x1b[K";
 
 double seconds_since(std::chrono::steady_clock::time_point start) {
@@ -24,7 +25,7 @@ Progress::Progress(int frames, bool quiet)
       quiet_(quiet),
       terminal_(isatty(STDERR_FILENO) == 1),
       start_(std::chrono::steady_clock::now()) {
-  if (!quiet_ && terminal_) draw_bar();
+  if (!quiet_ && terminal_) draw_bar("", static_cast<double>(done_) / frames_, numbers());
 }
 
 Progress::~Progress() {
@@ -47,16 +48,10 @@ void Progress::advance() {
   ++done_;
   if (quiet_) return;
   if (terminal_) {
-    draw_bar();
+    draw_bar("", static_cast<double>(done_) / frames_, numbers());
   } else if (10 * done_ / frames_ != 10 * (done_ - 1) / frames_) {
     fmt::print(stderr, "{}\n", numbers());
   }
-}
-
-void Progress::draw_bar() const {
-  const int filled = std::min(kBarWidth, kBarWidth * done_ / frames_);
-  fmt::print(stderr, "{}[{:#<{}}{:-<{}}] {}", kClearLine, "", filled, "", kBarWidth - filled, numbers());
-  std::fflush(stderr);
 }
 
 std::string Progress::numbers() const {

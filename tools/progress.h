@@ -24,7 +24,6 @@ class Progress {
 
  private:
   void advance();
-  void draw_bar() const;
   std::string numbers() const;
   std::string remaining() const;
 

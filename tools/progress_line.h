@@ -5,6 +5,10 @@
 
 namespace surefield {
 
+/// Draws a bar of `fraction` (clamped to [0, 1]) over the current line of the terminal on stderr, between
+/// `label` and `text`.
+void draw_bar(const std::string& label, double fraction, const std::string& text);
+
 /// Shows on stderr how far a long task is: a bar that is drawn again and again where that is a terminal, else
 /// nothing.
 class ProgressLine {

@@ -16,7 +16,7 @@ namespace surefield {
 
 namespace {
 
-constexpr const char* kExamples =
+constexpr const char* kRenderExamples =
     "Writes colour.png and, as uncompressed 32-bit float TIFF: colour, opacity, depth (blended), "
     "depth_normalised\n"
     "(divided by the opacity), depth_median (0 where there is none), uncertainty (0 without sensor depth),\n"
@@ -115,7 +115,7 @@ void add_render(CLI::App& program, Action& action) {
   depth->needs(scale);
   command->add_option("--device", options->engine.device,
                       "Number or part of the name of the device, see surefield devices; default: the best");
-  command->footer(kExamples);
+  command->footer(kRenderExamples);
   command->callback([options, &action] { action = [options] { return render(*options); }; });
 }
 

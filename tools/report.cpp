@@ -12,7 +12,7 @@ namespace surefield {
 
 namespace {
 
-constexpr const char* kExamples =
+constexpr const char* kReportExamples =
     "Writes one HTML file that needs nothing else, no network either: how good each run was, trajectories "
     "against\n"
     "the truth, errors, tracking and map size frame by frame, time per stage, renders against the sensor's "
@@ -59,7 +59,7 @@ void add_report(CLI::App& program, Action& action) {
       ->delimiter(',');
   command->add_option("--device", options->images.engine.device,
                       "Number or part of the name of the device, see surefield devices; default: the best");
-  command->footer(kExamples);
+  command->footer(kReportExamples);
   command->callback([options, &action] { action = [options] { return report(*options); }; });
 }
 

@@ -3,7 +3,6 @@
 
 #include <Eigen/Eigenvalues>
 #include <functional>
-#include <limits>
 #include <numbers>
 
 #include "engine/report/plot.h"
@@ -126,8 +125,6 @@ class FramePlot {
  private:
   Plot plot_;
 };
-
-const double kNone = std::numeric_limits<double>::quiet_NaN();
 
 double number_of(const ReportRun& run, std::size_t i, const char* key) {
   const nlohmann::json& frame = run.frame(i);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -7,6 +8,9 @@
 #include "tools/report_data.h"
 
 namespace surefield {
+
+/// Stands for a number that a run does not have.
+inline constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
 /// The parts of a report, each as HTML; empty where the runs have nothing to show.
 

@@ -3,7 +3,6 @@
 
 #include <cmath>
 #include <functional>
-#include <limits>
 
 #include "engine/report/html.h"
 #include "tools/report_sections.h"
@@ -16,8 +15,6 @@ namespace {
 constexpr double kFairError = 0.01, kBadError = 0.03;
 constexpr double kShortestPath = 1;  // metres; on shorter ones a share would say little
 constexpr double kBadLost = 0.1;     // fraction of the frames
-
-const double kNone = std::numeric_limits<double>::quiet_NaN();
 
 /// Which of two values is the better one.
 enum class Better { Lower, Higher, Neither };

@@ -8,7 +8,7 @@ namespace surefield {
 
 namespace {
 
-constexpr const char* kExamples =
+constexpr const char* kRunExamples =
     "Writes into the folder of --out: trajectory.txt and keyframes.txt (TUM format, camera to world), "
     "map.ply\n"
     "(the Gaussians), metrics.json and frames.csv (docs/evaluation.md), config.yaml (every setting as "
@@ -58,7 +58,7 @@ void add_run(CLI::App& program, Action& action) {
                   "Number or part of the name of the device, see surefield devices; default: the best");
   run->add_flag("--validate", options->engine.validate, "Runs under Vulkan's validation layer (slow)");
   run->add_flag("--quiet", options->quiet, "Prints errors only");
-  run->footer(kExamples);
+  run->footer(kRunExamples);
   run->callback([options, &action] { action = [options] { return run_session(*options); }; });
 }
 

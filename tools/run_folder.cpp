@@ -14,7 +14,7 @@ namespace surefield {
 namespace {
 
 constexpr const char* kSchema = "surefield-metrics";
-constexpr int kVersion = 1;
+constexpr int kMetricsVersion = 1;
 
 nlohmann::json read_metrics(const std::filesystem::path& file) {
   if (!std::filesystem::exists(file)) {
@@ -24,8 +24,9 @@ nlohmann::json read_metrics(const std::filesystem::path& file) {
   if (!json.is_object() || json.value("schema", nlohmann::json()) != kSchema) {
     throw InputError(file, "is no metrics file of surefield run");
   }
-  if (json.value("version", nlohmann::json()) != kVersion) {
-    throw InputError(file, fmt::format("has another version than {}; run the sequence again", kVersion));
+  if (json.value("version", nlohmann::json()) != kMetricsVersion) {
+    throw InputError(file,
+                     fmt::format("has another version than {}; run the sequence again", kMetricsVersion));
   }
   if (!json.contains("per_frame") || !json["per_frame"].is_array()) {
     throw InputError(file, "says nothing about its frames; run the sequence again");

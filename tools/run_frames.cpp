@@ -9,8 +9,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr double kMegabyte = 1e6;
-
 }  // namespace
 
 nlohmann::ordered_json frame_json(const FrameReport& frame) {

@@ -12,7 +12,6 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr int kSchemaVersion = 1;
-constexpr double kMegabyte = 1e6;
 
 /// The most host memory that this process has used, bytes.
 double host_peak_bytes() {

@@ -12,6 +12,8 @@
 
 namespace surefield {
 
+inline constexpr double kMegabyte = 1e6;  ///< bytes
+
 /// How a run ended.
 enum class RunEnd { Completed, Interrupted, Failed };
 

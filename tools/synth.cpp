@@ -17,7 +17,7 @@ namespace surefield {
 
 namespace {
 
-constexpr const char* kExamples =
+constexpr const char* kSynthExamples =
     "Renders a walk through a furnished scene and writes it as one of the datasets that surefield run reads, "
     "with\n"
     "the true poses. Beside it: mesh.ply, the surfaces of the scene in the same world frame, and synth.json, "
@@ -108,7 +108,7 @@ void add_synth(CLI::App& program, Action& action) {
   synth->add_option("--device", options->device,
                     "Number or part of the name of the device, see surefield devices; default: the best");
   synth->add_flag("--quiet", options->quiet, "Prints errors only");
-  synth->footer(kExamples);
+  synth->footer(kSynthExamples);
   synth->callback([options, &action] { action = [options] { return synthesise(*options); }; });
 }
 

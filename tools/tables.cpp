@@ -14,7 +14,7 @@ namespace surefield {
 
 namespace {
 
-constexpr const char* kExamples =
+constexpr const char* kTablesExamples =
     "tools/reproduce makes the runs and calls this; by itself it only writes their tables anew.\n"
     "Runs are looked for in RUNS/SET/SCENE/VARIANT/seedN. Values are means over seeds, with the standard "
     "deviation\n"
@@ -263,7 +263,7 @@ void add_tables(CLI::App& program, Action& action) {
   tables->add_option("--runs", options->runs, "Folder of the runs")->required();
   tables->add_option("--published", options->published, "CSV file of published values")->required();
   tables->add_option("--out", options->out, "Markdown file to write")->required();
-  tables->footer(kExamples);
+  tables->footer(kTablesExamples);
   tables->callback([options, &action] { action = [options] { return write_tables(*options); }; });
 }
 

@@ -19,7 +19,7 @@ constexpr double kReach = 0.10;       // metres
 constexpr double kKept = 0.9;         // of the points within reach
 constexpr double kSettled = 1e-7;     // metres and radians
 constexpr double kDetermined = 1e-4;  // of the largest eigenvalue; a direction of less is left alone
-constexpr std::size_t kFewest = 10;   // points
+constexpr std::size_t kFewestMatches = 10;
 
 /// A point and the plane of the surface next to it.
 struct Match {
@@ -107,7 +107,7 @@ Eigen::Isometry3d align_to_surface(const std::vector<Vector3d>& points, const Tr
   Eigen::Isometry3d pose = start;
   for (int i = 0; i < kIterations; ++i) {
     const std::vector<Match> matches = find_matches(points, surface, pose);
-    if (matches.size() < kFewest) return start;
+    if (matches.size() < kFewestMatches) return start;
     const Vector3d centre = centre_of(matches);
     const Vector6d step = solve_step(matches, centre);
     pose = motion_of(step, centre) * pose;

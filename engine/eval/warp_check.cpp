@@ -9,15 +9,15 @@ namespace surefield {
 
 namespace {
 
-constexpr double kTextureScale = 4;    // pixels; coarser structure is left out
-constexpr float kTexturedFrom = 4;     // grey levels
-constexpr float kMostError = 30;       // grey levels; occlusions count no more than that
-constexpr float kMostContrast = 4;     // times the mean; a single strong edge does not outvote the others
-constexpr float kRim = 1.1f;           // what lies behind a depth edge is that much farther
-constexpr int kRimReach = 2;           // pixels over which a depth edge may be spread
-constexpr std::size_t kPoints = 2000;  // per frame
-constexpr std::size_t kFewest = 50;    // points that must be comparable
-constexpr double kFewestShare = 0.25;  // of the points
+constexpr double kTextureScale = 4;        // pixels; coarser structure is left out
+constexpr float kTexturedFrom = 4;         // grey levels
+constexpr float kMostError = 30;           // grey levels; occlusions count no more than that
+constexpr float kMostContrast = 4;         // times the mean; a single strong edge does not outvote the others
+constexpr float kRim = 1.1f;               // what lies behind a depth edge is that much farther
+constexpr int kRimReach = 2;               // pixels over which a depth edge may be spread
+constexpr std::size_t kPoints = 2000;      // per frame
+constexpr std::size_t kFewestPoints = 50;  // points that must be comparable
+constexpr double kFewestShare = 0.25;      // of the points
 
 /// Bilinear value at (x, y), or NaN beyond the image.
 float sample(const cv::Mat& image, double x, double y) {
@@ -117,7 +117,7 @@ class ShareMean {
   }
   std::optional<double> mean(std::size_t total) const {
     const auto needed = static_cast<std::size_t>(kFewestShare * static_cast<double>(total));
-    if (count_ < std::max(kFewest, needed)) return std::nullopt;
+    if (count_ < std::max(kFewestPoints, needed)) return std::nullopt;
     return sum_ / static_cast<double>(count_);
   }
 

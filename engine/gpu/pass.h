@@ -60,6 +60,10 @@ class Pipeline {
   VkPipeline pipeline_ = VK_NULL_HANDLE;
 };
 
+/// Workgroup size of passes over pixels or Gaussians: as small as holds the widest subgroup, so that little
+/// is idle.
+inline constexpr uint32_t kWorkgroup = 64;
+
 /// A compute pass `P` (a struct of surefield::passes, declared once in shaders/shared/), ready to be
 /// dispatched.
 template <class P>

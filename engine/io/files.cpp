@@ -113,6 +113,11 @@ std::map<int, std::filesystem::path> numbered_files(const std::filesystem::path&
   return files;
 }
 
+std::string image_suffix(const std::filesystem::path& folder, const std::string& prefix,
+                         const std::string& suffix) {
+  return suffix + (numbered_files(folder, prefix, suffix + ".png").empty() ? ".jpg" : ".png");
+}
+
 std::map<std::string, std::filesystem::path> images_by_stem(const std::filesystem::path& folder) {
   std::map<std::string, std::filesystem::path> images;
   if (!std::filesystem::is_directory(folder)) return images;

@@ -41,6 +41,11 @@ std::optional<Eigen::Isometry3d> rigid_from_rows(const std::vector<double>& rows
 std::map<int, std::filesystem::path> numbered_files(const std::filesystem::path& folder,
                                                     const std::string& prefix, const std::string& suffix);
 
+/// The ending of the images in `folder` that are named `prefix`, six digits, `suffix`, ".png" or ".jpg":
+/// `suffix` with what follows it; ".jpg" where there are none.
+std::string image_suffix(const std::filesystem::path& folder, const std::string& prefix,
+                         const std::string& suffix = "");
+
 /// The images (.jpg, .jpeg, .png in any case) in `folder`, by their name without the extension; none where
 /// there is no such folder.
 std::map<std::string, std::filesystem::path> images_by_stem(const std::filesystem::path& folder);

@@ -31,14 +31,10 @@ Trajectory read_rows(const std::filesystem::path& file) {
   return trajectory;
 }
 
-std::string colour_suffix(const std::filesystem::path& folder) {
-  return numbered_files(folder / "results", "frame", ".png").empty() ? ".jpg" : ".png";
-}
-
 }  // namespace
 
 bool is_replica(const std::filesystem::path& folder) {
-  return !numbered_files(folder / "results", "frame", colour_suffix(folder)).empty();
+  return !numbered_files(folder / "results", "frame", image_suffix(folder / "results", "frame")).empty();
 }
 
 StoredSequence read_replica_sequence(const std::filesystem::path& folder) {
@@ -48,7 +44,8 @@ StoredSequence read_replica_sequence(const std::filesystem::path& folder) {
   const JsonObject camera = JsonObject(find_calibration(folder)).object("camera");
   sequence.intrinsics = read_intrinsics(camera, "w", "h");
   sequence.depth_encoding.unit = 1 / camera.positive("scale");
-  sequence.frames = numbered_frames(folder / "results", {"frame", colour_suffix(folder)}, {"depth", ".png"});
+  sequence.frames = numbered_frames(folder / "results", {"frame", image_suffix(folder / "results", "frame")},
+                                    {"depth", ".png"});
   const std::filesystem::path truth = folder / "traj.txt";
   if (std::filesystem::exists(truth)) sequence.ground_truth = read_rows(truth);
   return sequence;

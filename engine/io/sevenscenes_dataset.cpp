@@ -34,14 +34,10 @@ StampedPose read_pose(int number, const std::filesystem::path& file) {
   return {static_cast<double>(number), *pose};
 }
 
-std::string colour_suffix(const std::filesystem::path& folder) {
-  return numbered_files(folder, kPrefix, ".color.png").empty() ? ".color.jpg" : ".color.png";
-}
-
 }  // namespace
 
 bool is_sevenscenes(const std::filesystem::path& folder) {
-  return !numbered_files(folder, kPrefix, colour_suffix(folder)).empty();
+  return !numbered_files(folder, kPrefix, image_suffix(folder, kPrefix, ".color")).empty();
 }
 
 StoredSequence read_sevenscenes_sequence(const std::filesystem::path& folder) {
@@ -52,7 +48,8 @@ StoredSequence read_sevenscenes_sequence(const std::filesystem::path& folder) {
   sequence.registration = DepthRegistration{kDepthCamera, kColourCamera, depth_to_colour()};
   sequence.tracked_to_reference = depth_to_colour().inverse();
   sequence.depth_encoding = kDepthEncoding;
-  sequence.frames = numbered_frames(folder, {kPrefix, colour_suffix(folder)}, {kPrefix, ".depth.png"});
+  sequence.frames =
+      numbered_frames(folder, {kPrefix, image_suffix(folder, kPrefix, ".color")}, {kPrefix, ".depth.png"});
   Trajectory truth;
   for (const auto& [number, file] : numbered_files(folder, kPrefix, ".pose.txt")) {
     truth.push_back(read_pose(number, file));

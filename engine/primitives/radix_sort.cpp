@@ -9,7 +9,7 @@ namespace {
 constexpr uint32_t kDigitBitsMax = 8;
 static_assert(glsl::SORT_DIGITS_MAX == 1u << kDigitBitsMax);
 /// Pairs that one invocation may loop over (lavapipe ends loops at 65535 rounds in all).
-constexpr uint32_t kChunkMax = 32768;
+constexpr uint32_t kSortChunkMax = 32768;
 constexpr uint32_t kOffsetsGroupSize = 64;
 
 }  // namespace
@@ -34,7 +34,7 @@ RadixSort::RadixSort(gpu::Device& device, const SortShape& shape)
 
 uint32_t RadixSort::columns_for(uint32_t capacity) const {
   const uint32_t wanted = std::min(capacity / shape_.chunk_least + 1, shape_.columns);
-  const uint32_t needed = capacity / kChunkMax + 1;
+  const uint32_t needed = capacity / kSortChunkMax + 1;
   return histogram_.groups(std::max(wanted, needed)) * shape_.group_size;
 }
 

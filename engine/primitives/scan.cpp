@@ -8,7 +8,7 @@ namespace {
 
 /// Elements that are worth an invocation, and that one may loop over twice (lavapipe ends loops at 65535
 /// rounds in all).
-constexpr uint32_t kChunkLeast = 8, kChunkMax = 16384;
+constexpr uint32_t kScanChunkLeast = 8, kScanChunkMax = 16384;
 
 }  // namespace
 
@@ -30,8 +30,8 @@ void ExclusiveScan::record(gpu::Recorder& recorder, const gpu::Array<glsl::uint>
                            const gpu::Array<glsl::uint>& output, const gpu::Array<glsl::uint>& total,
                            const DeviceCount& count) {
   require_room(count, {&input.buffer(), &output.buffer()});
-  const uint32_t wanted = std::min(count.capacity / (kChunkLeast * shape_.group_size) + 1, shape_.groups);
-  const uint32_t needed = count.capacity / (kChunkMax * shape_.group_size) + 1;
+  const uint32_t wanted = std::min(count.capacity / (kScanChunkLeast * shape_.group_size) + 1, shape_.groups);
+  const uint32_t needed = count.capacity / (kScanChunkMax * shape_.group_size) + 1;
   const uint32_t groups = std::max(wanted, needed);
   recorder.reserve(group_sums_, groups);
   recorder.dispatch(sums_, groups, {.count = count.value, .values = input, .group_sums = group_sums_},

@@ -9,8 +9,6 @@ namespace surefield {
 
 namespace {
 
-constexpr uint32_t kWorkgroup = 64;
-
 std::vector<GaussianStatistics> read_statistics(const GaussianMap& map) {
   const auto logits = map.opacity_logits.value.download(map.size());
   const auto scales = map.log_scales.value.download(map.size());
@@ -55,7 +53,10 @@ DensifyPlan plan_densification(std::span<const GaussianStatistics> statistics,
 }
 
 Densifier::Densifier(gpu::Device& device)
-    : device_(device), gather_(device, kWorkgroup), split_(device, kWorkgroup), sources_(device, "sources") {}
+    : device_(device),
+      gather_(device, gpu::kWorkgroup),
+      split_(device, gpu::kWorkgroup),
+      sources_(device, "sources") {}
 
 template <class T>
 void Densifier::gather(gpu::Recorder& recorder, gpu::Array<T>& array, uint32_t words, bool only_kept) {

@@ -8,7 +8,6 @@ namespace surefield {
 
 namespace {
 
-constexpr uint32_t kWorkgroup = 64;
 // Steps of each level, finest first: after the first render all levels, later the finest alone.
 constexpr int kFirstSteps[] = {4, 4, 6};
 constexpr int kLaterSteps = 4;
@@ -32,14 +31,14 @@ GaussNewtonTracker::Level::Level(gpu::Device& device)
 
 GaussNewtonTracker::GaussNewtonTracker(gpu::Device& device)
     : device_(device),
-      sensor_pass_(device, kWorkgroup),
-      rendered_alpha_(device, kWorkgroup, {.NORMALISED_DEPTH = 0}),
-      rendered_normalised_(device, kWorkgroup, {.NORMALISED_DEPTH = 1}),
-      halve_pass_(device, kWorkgroup),
-      points_pass_(device, kWorkgroup),
-      sums_pass_(device, kWorkgroup),
+      sensor_pass_(device, gpu::kWorkgroup),
+      rendered_alpha_(device, gpu::kWorkgroup, {.NORMALISED_DEPTH = 0}),
+      rendered_normalised_(device, gpu::kWorkgroup, {.NORMALISED_DEPTH = 1}),
+      halve_pass_(device, gpu::kWorkgroup),
+      points_pass_(device, gpu::kWorkgroup),
+      sums_pass_(device, gpu::kWorkgroup),
       begin_pass_(device, device.limits().subgroup_size),
-      step_pass_(device, kWorkgroup),
+      step_pass_(device, gpu::kWorkgroup),
       camera_(device, "tracked camera"),
       state_(device, "alignment state"),
       partial_sums_(device, "partial alignment sums"),

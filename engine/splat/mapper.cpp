@@ -4,8 +4,6 @@ namespace surefield {
 
 namespace {
 
-constexpr uint32_t kWorkgroup = 64;
-
 uint32_t strips(uint32_t length) {
   return (length + glsl::SSIM_STRIP - 1) / glsl::SSIM_STRIP;
 }
@@ -22,13 +20,13 @@ CameraVariable::CameraVariable(gpu::Device& device, const Camera& initial)
 Mapper::Mapper(gpu::Device& device)
     : loss(device, "mapping loss"),
       device_(device),
-      ssim_rows_(device, kWorkgroup),
-      ssim_columns_(device, kWorkgroup),
-      ssim_slope_rows_(device, kWorkgroup),
-      gradient_alpha_(device, kWorkgroup, {.NORMALISED_DEPTH = 0}),
-      gradient_normalised_(device, kWorkgroup, {.NORMALISED_DEPTH = 1}),
-      sum_losses_(device, kWorkgroup),
-      update_(device, TileLists::kWorkgroup),
+      ssim_rows_(device, gpu::kWorkgroup),
+      ssim_columns_(device, gpu::kWorkgroup),
+      ssim_slope_rows_(device, gpu::kWorkgroup),
+      gradient_alpha_(device, gpu::kWorkgroup, {.NORMALISED_DEPTH = 0}),
+      gradient_normalised_(device, gpu::kWorkgroup, {.NORMALISED_DEPTH = 1}),
+      sum_losses_(device, gpu::kWorkgroup),
+      update_(device, gpu::kWorkgroup),
       refine_pose_(device, device.limits().subgroup_size),
       moments_(device, "SSIM moments"),
       slopes_(device, "SSIM slopes"),
@@ -41,7 +39,7 @@ gpu::Pass<passes::update_colours>& Mapper::colour_update(int sh_degree) {
   auto& pass = update_colours_[sh_degree];
   if (!pass)
     pass = std::make_unique<gpu::Pass<passes::update_colours>>(
-        device_, TileLists::kWorkgroup, passes::update_colours::Constants{static_cast<uint32_t>(sh_degree)});
+        device_, gpu::kWorkgroup, passes::update_colours::Constants{static_cast<uint32_t>(sh_degree)});
   return *pass;
 }
 

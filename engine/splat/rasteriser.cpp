@@ -86,7 +86,7 @@ Rasteriser::BackwardPasses& Rasteriser::backward_passes(int sh_degree) {
       {device_, s.lanes, constants},
       {device_, s.lanes, all},
       {device_,
-       TileLists::kWorkgroup,
+       gpu::kWorkgroup,
        {.SH_DEGREE = constants.SH_DEGREE, .FULL_POSE_GRADIENT = constants.FULL_POSE_GRADIENT}}});
   return *made;
 }
@@ -113,8 +113,8 @@ void Rasteriser::record_forward(gpu::Recorder& recorder, const GaussianMap& map,
 
 void Rasteriser::record_backward(gpu::Recorder& recorder, GaussianMap& map, const View& view,
                                  float isotropy_weight) {
-  const uint32_t subgroups = TileLists::kWorkgroup / lists.shape().lanes;
-  const uint64_t groups = map.size() / TileLists::kWorkgroup + 1;
+  const uint32_t subgroups = gpu::kWorkgroup / lists.shape().lanes;
+  const uint64_t groups = map.size() / gpu::kWorkgroup + 1;
   recorder.reserve(instance_gradients_, lists.instance_capacity());
   recorder.reserve(pose_partials_, groups * subgroups);
   recorder.reserve(gaussian_gradients, map.size());
@@ -153,7 +153,7 @@ void Rasteriser::record_backward(gpu::Recorder& recorder, GaussianMap& map, cons
   recorder.dispatch(
       reduce_pose_, 1,
       {.visible_count = lists.visible_count, .pose_partials = pose_partials_, .pose_gradient = pose_gradient},
-      {.count = 0, .workgroup_size = TileLists::kWorkgroup, .subgroups = subgroups});
+      {.count = 0, .workgroup_size = gpu::kWorkgroup, .subgroups = subgroups});
 }
 
 void Rasteriser::record_backward_pose(gpu::Recorder& recorder, const GaussianMap& map, const View& view,

@@ -36,9 +36,9 @@ TileLists::TileLists(gpu::Device& device, const TileShape& shape)
       status(device, "render status"),
       device_(device),
       shape_(shape),
-      compact_(device, kWorkgroup),
-      gather_(device, kWorkgroup),
-      emit_(device, kWorkgroup, tile_constants(shape)),
+      compact_(device, gpu::kWorkgroup),
+      gather_(device, gpu::kWorkgroup),
+      emit_(device, gpu::kWorkgroup, tile_constants(shape)),
       ranges_(device, kInstanceWorkgroup),
       prepare_(device, device.limits().subgroup_size),
       scan_(device),
@@ -59,7 +59,7 @@ gpu::Pass<passes::project_splats>& TileLists::projection(int sh_degree) {
   auto& pass = project_[sh_degree];
   if (!pass)
     pass = std::make_unique<gpu::Pass<passes::project_splats>>(
-        device_, kWorkgroup,
+        device_, gpu::kWorkgroup,
         passes::project_splats::Constants{shape_.width, shape_.height, static_cast<uint32_t>(sh_degree)});
   return *pass;
 }
@@ -121,7 +121,7 @@ void TileLists::record_projection(gpu::Recorder& recorder, const GaussianMap& ma
                     {.count = gaussians_});
   sort_.record(recorder, depth_keys_, visible_ids, {visible_count, gaussians_}, 32);
   recorder.dispatch(prepare_, 1, {.element_count = visible_count, .dispatch_args = dispatch_args},
-                    {.workgroup_size = kWorkgroup, .slot = kVisibleArgs});
+                    {.workgroup_size = gpu::kWorkgroup, .slot = kVisibleArgs});
 }
 
 void TileLists::record_instances(gpu::Recorder& recorder, const gpu::Array<glsl::CameraState>& camera,

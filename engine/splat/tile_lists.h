@@ -57,8 +57,7 @@ class TileLists {
   uint32_t tiles_x(const ImageSize& size) const { return (size.width + shape_.width - 1) / shape_.width; }
   uint32_t tiles_y(const ImageSize& size) const { return (size.height + shape_.height - 1) / shape_.height; }
 
-  /// Workgroup size of passes over visible Gaussians, and the indirect arguments to dispatch them with.
-  static constexpr uint32_t kWorkgroup = 64;
+  /// The indirect arguments to dispatch passes over the visible Gaussians with.
   static constexpr uint32_t kVisibleArgs = 0;
   gpu::Array<gpu::DispatchArgs> dispatch_args;
 

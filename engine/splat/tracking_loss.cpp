@@ -2,23 +2,17 @@
 
 namespace surefield {
 
-namespace {
-
-constexpr uint32_t kWorkgroup = 64;
-
-}  // namespace
-
 TrackingLoss::DepthPasses::DepthPasses(gpu::Device& device, uint32_t normalised)
-    : residuals(device, kWorkgroup, {.NORMALISED_DEPTH = normalised}),
-      gradient(device, kWorkgroup, {.NORMALISED_DEPTH = normalised}) {}
+    : residuals(device, gpu::kWorkgroup, {.NORMALISED_DEPTH = normalised}),
+      gradient(device, gpu::kWorkgroup, {.NORMALISED_DEPTH = normalised}) {}
 
 TrackingLoss::TrackingLoss(gpu::Device& device)
     : sums(device, "tracking sums"),
       alpha_(device, 0),
       normalised_(device, 1),
-      limits_pass_(device, kWorkgroup),
-      sums_pass_(device, kWorkgroup),
-      total_pass_(device, kWorkgroup),
+      limits_pass_(device, gpu::kWorkgroup),
+      sums_pass_(device, gpu::kWorkgroup),
+      total_pass_(device, gpu::kWorkgroup),
       residuals_(device, "residuals"),
       histograms_(device, "residual histograms", 2 * glsl::RESIDUAL_BINS),
       limits_(device, "residual limits"),

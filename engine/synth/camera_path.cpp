@@ -16,8 +16,7 @@ using Eigen::Vector3d;
 
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-constexpr double kDegree = kPi / 180;
+constexpr double kDegree = std::numbers::pi / 180;
 constexpr double kRate = 240;              // samples a second
 constexpr double kMargin = 0.25;           // seconds before the start and after the end
 constexpr double kClearance = 0.25;        // metres
@@ -101,7 +100,7 @@ class Arc {
 };
 
 double wrap(double angle) {
-  return std::remainder(angle, 2 * kPi);
+  return std::remainder(angle, 2 * std::numbers::pi);
 }
 
 /// Averages with Gaussian weights; the ends are repeated.
@@ -135,7 +134,8 @@ double tremble(double seconds, uint32_t seed, uint32_t channel) {
   double sum = 0;
   for (uint32_t i = 0; i < 3; ++i) {
     const double hertz = 0.55 + 0.62 * i + 0.2 * unit_interval(hash_key(seed, channel, i, 1));
-    sum += std::sin(2 * kPi * (hertz * seconds + unit_interval(hash_key(seed, channel, i, 2)))) / (1 + i);
+    sum += std::sin(2 * std::numbers::pi * (hertz * seconds + unit_interval(hash_key(seed, channel, i, 2)))) /
+           (1 + i);
   }
   return sum / 1.84;
 }

@@ -11,8 +11,6 @@ using Eigen::Vector3d;
 
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-
 Vector3d polar(double radius, double angle, double z) {
   return {radius * std::cos(angle), radius * std::sin(angle), z};
 }
@@ -52,7 +50,7 @@ void Furniture::swivel_chair(const Spot& spot) {
   b_.begin("swivel chair", spot);
   const int fabric = any(p_.fabrics);
   for (int i = 0; i < 5; ++i) {
-    const double angle = 2 * kPi * i / 5 + 0.3;
+    const double angle = 2 * std::numbers::pi * i / 5 + 0.3;
     b_.rod({0, 0, 0.10}, polar(0.29, angle, 0.07), 0.016, p_.black_plastic);
     b_.ellipsoid(polar(0.29, angle, 0.03), {0.03, 0.03, 0.03}, p_.black_plastic);
   }
@@ -237,7 +235,7 @@ void Furniture::bench(const Spot& spot, double length) {
 
 void Furniture::foliage(const Vector3d& crown, double radius, int count, double leaf_length) {
   for (int i = 0; i < count; ++i) {
-    const double turn = b_.random.uniform(0, 2 * kPi), height = b_.random.uniform(-0.7, 1);
+    const double turn = b_.random.uniform(0, 2 * std::numbers::pi), height = b_.random.uniform(-0.7, 1);
     const double out = radius * b_.random.uniform(0.35, 1) * std::sqrt(1 - 0.8 * height * height);
     const Vector3d tip = crown + polar(out, turn, 0.8 * radius * height);
     const Vector3d along = (tip - crown + Vector3d(0, 0, b_.random.uniform(-0.3, 0.1) * radius)).normalized();
@@ -268,7 +266,7 @@ void Furniture::thicket(const Spot& spot, double height) {
     b_.rod(root, root + lean, b_.random.uniform(0.003, 0.006), p_.bark);
     const Vector3d at = root + b_.random.uniform(0.55, 1) * lean;
     const double up = b_.random.uniform(-0.2, 0.8);
-    const Vector3d along = polar(1, b_.random.uniform(0, 2 * kPi), up).normalized();
+    const Vector3d along = polar(1, b_.random.uniform(0, 2 * std::numbers::pi), up).normalized();
     b_.leaf(at + 0.07 * along, {0.075, 0.018, 0.002}, along, Vector3d(0.1, 0.2, 1), p_.leaf);
   }
 }
