@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "engine/eval/check_scene.h"
+#include "engine/io/median.h"
 
 namespace surefield {
 
@@ -77,10 +78,7 @@ StampSurvey survey_stamps(const Dataset& dataset) {
   }
   if (steps.empty()) return survey;
   survey.duration = dataset.timestamp(dataset.size() - 1) - dataset.timestamp(0);
-  std::vector<double> sorted = steps;
-  std::nth_element(sorted.begin(), sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2),
-                   sorted.end());
-  survey.spacing = sorted[sorted.size() / 2];
+  survey.spacing = median(steps);
   for (double step : steps) {
     if (step <= kGap * survey.spacing) continue;
     ++survey.gaps;

@@ -7,6 +7,7 @@
 #include "engine/eval/surface_samples.h"
 #include "engine/eval/triangle_tree.h"
 #include "engine/io/error.h"
+#include "engine/io/median.h"
 
 namespace surefield {
 
@@ -14,9 +15,9 @@ namespace {
 
 using Points = std::vector<Eigen::Vector3d>;
 
-constexpr double kNear = 0.05;              // metres; of the completion ratio
-constexpr double kMatch = 0.01;             // metres; of precision and recall
-constexpr std::size_t kIcpSamples = 20000;  // points on the reconstruction
+constexpr double kCompletionDistance = 0.05;  // metres; of the completion ratio
+constexpr double kMatch = 0.01;               // metres; of precision and recall
+constexpr std::size_t kIcpSamples = 20000;    // points on the reconstruction
 
 double mean(const std::vector<double>& values) {
   return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
@@ -53,19 +54,13 @@ void measure_distances(const TriangleMesh& reconstruction, const TriangleMesh& t
                                                  surface_distances(theirs, TriangleTree(reconstruction)));
 }
 
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
 }  // namespace
 
 SurfaceDistances summarise_distances(const std::vector<double>& to_truth,
                                      const std::vector<double>& to_reconstruction) {
   return {.accuracy = mean(to_truth),
           .completion = mean(to_reconstruction),
-          .completion_ratio = part_below(to_reconstruction, kNear),
+          .completion_ratio = part_below(to_reconstruction, kCompletionDistance),
           .precision = part_below(to_truth, kMatch),
           .recall = part_below(to_reconstruction, kMatch)};
 }

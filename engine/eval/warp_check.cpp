@@ -5,6 +5,8 @@
 #include <limits>
 #include <opencv2/imgproc.hpp>
 
+#include "engine/io/median.h"
+
 namespace surefield {
 
 namespace {
@@ -154,12 +156,6 @@ std::optional<double> edge_strength(const CheckScene& scene, const CheckFrame& f
     mean.add(camera.seen(frame.contrast, *registered * camera.point(point)));
   }
   return mean.mean(frame.rims.size());
-}
-
-double median(std::vector<double>& values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
 }
 
 }  // namespace

@@ -7,12 +7,12 @@
 
 #include "engine/io/config.h"
 #include "engine/io/error.h"
+#include "engine/io/images.h"
 
 namespace surefield {
 
 namespace {
 
-constexpr double kLargestSide = 65536;  // pixels; a larger image is a typing error
 constexpr double kLargestPixel = 1e6;
 constexpr double kSmallestUnit = 1e-9;  // metres
 constexpr double kMissing = std::numeric_limits<double>::quiet_NaN();

@@ -20,7 +20,6 @@ namespace surefield {
 namespace {
 
 constexpr Intrinsics kCamera = {640, 480, 481.2, 480.0, 319.5, 239.5};
-constexpr double kDepthUnit = 1.0 / 5000;
 constexpr const char* kList = "associations.txt";
 
 /// One line: two stamps, each before its file; which of them is colour, the folders tell.
@@ -71,7 +70,7 @@ StoredSequence read_icl_sequence(const std::filesystem::path& folder) {
   sequence.name = folder.filename().string();
   sequence.format = "icl";
   sequence.intrinsics = kCamera;
-  sequence.depth_encoding.unit = kDepthUnit;
+  sequence.depth_encoding.unit = kTumDepthUnit;
   for (const TextLine& line : read_lines(folder / kList)) {
     sequence.frames.push_back(parse_line(folder / kList, line));
   }

@@ -8,10 +8,17 @@
 
 namespace surefield {
 
+/// Pixels; a width or height above is a typing error or a damaged file.
+inline constexpr int kLargestSide = 65536;
+
+/// Depth units, metres for one step of a depth image.
+inline constexpr double kMillimetre = 0.001;
+inline constexpr double kTumDepthUnit = 1.0 / 5000;
+
 /// How the numbers of a stored depth image are to be read.
 struct DepthEncoding {
-  double unit = 0.001;    ///< metres for one step
-  int invalid_value = 0;  ///< a stored value that means "no measurement", besides 0
+  double unit = kMillimetre;  ///< metres for one step
+  int invalid_value = 0;      ///< a stored value that means "no measurement", besides 0
 };
 
 /// Reads an 8-bit colour image as CV_8UC3, RGB. Throws InputError when the file is missing or damaged,

@@ -5,12 +5,11 @@
 
 #include "engine/io/error.h"
 #include "engine/io/files.h"
+#include "engine/io/images.h"
 
 namespace surefield {
 
 namespace {
-
-constexpr double kLargestSide = 65536;  // pixels; a larger image is a typing error
 
 int read_side(const JsonObject& object, const std::string& key) {
   const double side = object.positive(key);

@@ -14,8 +14,6 @@ namespace surefield {
 
 namespace {
 
-constexpr double kDepthUnit = 0.001;
-
 /// The images of a folder that are named by whole numbers.
 std::map<int, std::filesystem::path> numbered_images(const std::filesystem::path& folder) {
   std::map<int, std::filesystem::path> numbered;
@@ -83,7 +81,7 @@ StoredSequence read_scannet_sequence(const std::filesystem::path& folder) {
   sequence.frames = read_frames(folder);
   sequence.intrinsics =
       read_intrinsics_matrix(folder / "intrinsic" / "intrinsic_depth.txt", stored_size(sequence.frames));
-  sequence.depth_encoding.unit = kDepthUnit;
+  sequence.depth_encoding.unit = kMillimetre;
   sequence.resize_colour = true;
   Trajectory truth = read_poses(folder, sequence.frames);
   if (!truth.empty()) sequence.ground_truth = std::move(truth);

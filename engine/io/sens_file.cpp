@@ -25,7 +25,6 @@ static_assert(std::endian::native == std::endian::little, "the numbers of the fi
 
 constexpr uint32_t kVersion = 4;
 constexpr uint64_t kLongestName = 4096;
-constexpr uint32_t kLargestSide = 65536;  // pixels
 
 /// Reads numbers one after the other.
 class Reader {
@@ -95,7 +94,8 @@ void read_header(Reader& reader, SensFile& sens) {
   std::array<uint32_t, 4> sides{};
   for (uint32_t& side : sides) {
     side = reader.number<uint32_t>();
-    if (side == 0 || side > kLargestSide) throw InputError(sens.file, "is damaged: no size of an image");
+    if (side == 0 || side > uint32_t{kLargestSide})
+      throw InputError(sens.file, "is damaged: no size of an image");
   }
   sens.colour = intrinsics_of(colour, sides[0], sides[1]);
   sens.depth = intrinsics_of(depth, sides[2], sides[3]);

@@ -16,7 +16,6 @@ namespace surefield {
 namespace {
 
 constexpr double kMaxStampDifference = 0.02;  // seconds between the colour and the depth image of a frame
-constexpr double kDepthUnit = 1.0 / 5000;
 
 /// One of the three cameras of the benchmark.
 struct Calibration {
@@ -53,7 +52,7 @@ void read_own_camera(const std::filesystem::path& file, StoredSequence& sequence
 
 /// Own recordings in this layout bring camera.yaml or cam_params.json; for the benchmark's sequences the
 /// folder's name tells.
-void read_calibration(const std::filesystem::path& folder, StoredSequence& sequence) {
+void read_tum_calibration(const std::filesystem::path& folder, StoredSequence& sequence) {
   if (std::filesystem::exists(folder / kCameraFile)) return read_own_camera(folder / kCameraFile, sequence);
   const std::filesystem::path file = folder / "cam_params.json";
   if (std::filesystem::exists(file)) {
@@ -68,7 +67,7 @@ void read_calibration(const std::filesystem::path& folder, StoredSequence& seque
     if (!named) continue;
     sequence.intrinsics = known.intrinsics;
     sequence.distortion = known.distortion;
-    sequence.depth_encoding.unit = kDepthUnit;
+    sequence.depth_encoding.unit = kTumDepthUnit;
     return;
   }
   throw InputError(
@@ -121,7 +120,7 @@ StoredSequence read_tum_sequence(const std::filesystem::path& folder) {
   StoredSequence sequence;
   sequence.name = folder.filename().string();
   sequence.format = "tum";
-  read_calibration(folder, sequence);
+  read_tum_calibration(folder, sequence);
   const std::vector<ListedImage> colours = read_list(folder / "rgb.txt");
   const std::vector<ListedImage> depths = read_list(folder / "depth.txt");
   for (const ListedImage& colour : colours) {

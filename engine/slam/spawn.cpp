@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
+
+#include "engine/io/median.h"
 
 namespace surefield {
 
@@ -23,9 +26,7 @@ double median_depth_error(const Frame& frame, const RenderImages& rendered, cons
       errors.push_back(std::abs(rendered.depth_normalised[i] - sensor));
   }
   if (errors.empty()) return 0;
-  const auto middle = errors.begin() + static_cast<std::ptrdiff_t>(errors.size() / 2);
-  std::nth_element(errors.begin(), middle, errors.end());
-  return *middle;
+  return median(std::move(errors));
 }
 
 }  // namespace
