@@ -4,142 +4,67 @@
 #include <chrono>
 #include <cmath>
 #include <ctime>
-#include <functional>
 #include <map>
+#include <numeric>
+#include <stdexcept>
 #include <string_view>
 
-#include "engine/splat/rasteriser.h"
-#include "shaders/shared/measure_peak.h"
-#include "tools/pair_count.h"
+#include "tools/bench_steps.h"
+#include "tools/cpu_blend.h"
+#include "tools/progress_line.h"
 
 namespace surefield {
 
 namespace {
 
 constexpr int kWarmUp = 2;
+constexpr int kTimedRuns = 3;  // of every pass measurement, so many runs without time stamps
 
-/// Time since it was made.
-class Stopwatch {
- public:
-  double milliseconds() const {
-    return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start_).count();
-  }
-  double cpu_milliseconds() const {
-    return 1e3 * static_cast<double>(std::clock() - cpu_start_) / CLOCKS_PER_SEC;
-  }
+/// Adds how long `work` takes, divided by `units`.
+void time(const std::function<void()>& work, int units, Times* times) {
+  const std::clock_t cpu_start = std::clock();
+  const auto start = std::chrono::steady_clock::now();
+  work();
+  const std::chrono::duration<double, std::milli> wall = std::chrono::steady_clock::now() - start;
+  times->milliseconds.add(wall.count() / units);
+  times->cpu_milliseconds.add(1e3 * static_cast<double>(std::clock() - cpu_start) / CLOCKS_PER_SEC / units);
+}
 
- private:
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-  std::clock_t cpu_start_ = std::clock();
-};
-
-/// Adds the times of the dispatches of one step.
-void add_passes(const std::vector<gpu::PassTime>& times, StepSamples* step) {
-  std::map<std::string_view, double> sums;
-  for (const gpu::PassTime& time : times) sums[time.pass] += time.milliseconds;
-  const bool first = step->passes.empty();
+/// Adds the times of the dispatches of `units` steps.
+void add_passes(const std::vector<gpu::PassTime>& times, int units, StepTimes* step) {
+  std::map<std::string_view, std::pair<int, double>> sums;
   for (const gpu::PassTime& time : times) {
-    auto entry = std::find_if(step->passes.begin(), step->passes.end(),
-                              [&](const PassSamples& p) { return p.pass == time.pass; });
-    if (entry == step->passes.end()) entry = step->passes.insert(entry, {time.pass});
-    if (first) ++entry->dispatches;
+    ++sums[time.pass].first;
+    sums[time.pass].second += time.milliseconds;
+    const auto is_pass = [&](const PassSamples& p) { return p.pass == time.pass; };
+    if (std::none_of(step->passes.begin(), step->passes.end(), is_pass)) step->passes.push_back({time.pass});
   }
-  for (PassSamples& pass : step->passes) pass.milliseconds.add(sums[pass.pass]);
+  for (PassSamples& pass : step->passes) {
+    const auto& [dispatches, milliseconds] = sums[pass.pass];
+    pass.dispatches = static_cast<double>(dispatches) / units;
+    pass.milliseconds.add(milliseconds / units);
+  }
 }
 
-/// A gradient for every pixel, without meaning but with no zeros.
-std::vector<glsl::PixelUpstream> some_upstream(uint64_t pixels) {
-  std::vector<glsl::PixelUpstream> upstream(pixels);
-  for (uint64_t i = 0; i < pixels; ++i) {
-    const float x = std::sin(static_cast<float>(i % 1000)), y = std::cos(static_cast<float>(i % 777));
-    upstream[i] = {.colour = {x, y, x * y},
-                   .depth = x,
-                   .constant = 0.5f * y,
-                   .total = y,
-                   .median = 0.1f * x,
-                   .uncertainty = 0.1f * y};
-  }
-  return upstream;
+/// Measures one step once: as a whole, and pass by pass every few times.
+void measure(gpu::Device& device, const BenchStep& step, int round, StepTimes* times) {
+  step.prepare();
+  time(step.run, step.units, &times->whole);
+  if (round % kTimedRuns != 0) return;
+  step.prepare();
+  device.time_passes(true);
+  step.run();
+  device.time_passes(false);
+  add_passes(device.take_pass_times(), step.units, times);
 }
 
-/// A scene on the device.
-class SceneBench {
- public:
-  SceneBench(gpu::Device& device, const TileShape& shape, const BenchScene& scene)
-      : rasteriser_(device, shape),
-        map_(device),
-        camera_(device, "camera"),
-        depth_(device, "sensor depth"),
-        recorder_(device),
-        size_{static_cast<uint32_t>(scene.camera.intrinsics.width),
-              static_cast<uint32_t>(scene.camera.intrinsics.height)} {
-    map_.assign(scene.cloud);
-    const glsl::CameraState state = to_device(scene.camera);
-    camera_.upload(std::span(&state, 1));
-    std::vector<float> depth = scene.sensor_depth;
-    depth.resize(size_.pixels(), 0.0f);
-    depth_.upload(depth);
-    do {
-      rasteriser_.record_forward(recorder_, map_, view(), Outputs::All);
-      recorder_.submit();
-    } while (rasteriser_.lists.settle() == 0);
-    rasteriser_.pixel_upstream.upload(some_upstream(size_.pixels()));
-    recorder_.enable_timestamps();
-  }
-
-  void measure(SceneTimes* times) {
-    time(&times->forward, [&] { rasteriser_.record_forward(recorder_, map_, view(), Outputs::ColourDepth); });
-    time(&times->backward_pose,
-         [&] { rasteriser_.record_backward_pose(recorder_, map_, view(), Outputs::ColourDepth); });
-    time(&times->forward_all, [&] { rasteriser_.record_forward(recorder_, map_, view(), Outputs::All); });
-    time(&times->backward, [&] { rasteriser_.record_backward(recorder_, map_, view(), 0.1f); });
-  }
-
-  const TileLists& lists() const { return rasteriser_.lists; }
-  const ImageSize& size() const { return size_; }
-
- private:
-  View view() const { return {size_, camera_, depth_}; }
-
-  void time(StepSamples* step, const std::function<void()>& record) {
-    const Stopwatch watch;
-    record();
-    const std::vector<gpu::PassTime> times = recorder_.submit();
-    step->milliseconds.add(watch.milliseconds());
-    step->cpu_milliseconds.add(watch.cpu_milliseconds());
-    add_passes(times, step);
-  }
-
-  Rasteriser rasteriser_;
-  GaussianMap map_;
-  gpu::Array<glsl::CameraState> camera_;
-  gpu::Array<float> depth_;
-  gpu::Recorder recorder_;
-  ImageSize size_;
-};
-
-void find_blending(StepSamples* step) {
-  for (const PassSamples& pass : step->passes)
-    if (pass.pass.starts_with("blend_")) step->blend_milliseconds = pass.milliseconds.median();
-}
-
-/// The best rate of one kernel, in operations per nanosecond.
-double peak_rate(gpu::Device& device, bool exponentials) {
-  constexpr uint32_t kRounds = 4096, kChains = 16, kGroups = 64;
-  constexpr int kRepeat = 20;
-  const uint32_t lanes = device.limits().subgroup_size;
-  const gpu::Pass<passes::measure_peak> pass(device, lanes,
-                                             {.EXPONENTIALS = exponentials ? 1u : 0u, .ROUNDS = kRounds});
-  gpu::Array<float> results(device, "results", uint64_t{kGroups} * lanes);
-  gpu::Recorder recorder(device);
-  double best = 0;
-  for (int i = 0; i < kRepeat + kWarmUp; ++i) {
-    const Stopwatch watch;
-    recorder.dispatch(pass, kGroups, {.results = results}, {.factor = 0.999f, .offset = 0.001f});
-    recorder.submit();
-    best = std::max(best, double{kRounds} * kChains * kGroups * lanes / (1e6 * watch.milliseconds()));
-  }
-  return best;
+/// The mean difference of the colours.
+double difference(const std::vector<glsl::vec4>& device, const CpuImages& host) {
+  double sum = 0;
+  for (std::size_t i = 0; i < device.size(); ++i)
+    sum += std::abs(device[i].x - host.red[i]) + std::abs(device[i].y - host.green[i]) +
+           std::abs(device[i].z - host.blue[i]);
+  return sum / static_cast<double>(3 * device.size());
 }
 
 }  // namespace
@@ -154,21 +79,55 @@ double Samples::least() const {
   return values_.empty() ? 0 : *std::min_element(values_.begin(), values_.end());
 }
 
-SceneTimes measure_scene(gpu::Device& device, const TileShape& shape, const BenchScene& scene, int repeat) {
-  SceneBench bench(device, shape, scene);
-  SceneTimes times;
-  for (int i = 0; i < kWarmUp; ++i) bench.measure(&times);
-  times = {.name = scene.name, .gaussians = scene.cloud.size(), .size = bench.size()};
-  for (int i = 0; i < repeat; ++i) bench.measure(&times);
-  for (StepSamples* step : {&times.forward, &times.forward_all, &times.backward_pose, &times.backward})
-    find_blending(step);
-  times.status = bench.lists().read_status();
-  times.pairs = count_pairs(bench.lists(), bench.size());
-  return times;
+double StepTimes::passes_milliseconds() const {
+  return std::accumulate(passes.begin(), passes.end(), 0.0, [](double sum, const PassSamples& pass) {
+    return sum + pass.milliseconds.median();
+  });
 }
 
-PeakRates measure_peak(gpu::Device& device) {
-  return {.gflops = 2 * peak_rate(device, false), .exponentials_per_ns = peak_rate(device, true)};
+double StepTimes::pass_milliseconds(const std::string& wanted) const {
+  for (const PassSamples& pass : passes)
+    if (pass.pass == wanted) return pass.milliseconds.median();
+  return 0;
+}
+
+const StepTimes& SceneTimes::step(const std::string& wanted) const {
+  for (const StepTimes& step : steps)
+    if (step.name == wanted) return step;
+  throw std::out_of_range("no step " + wanted);
+}
+
+SceneTimes measure_scene(gpu::Device& device, const TileShape& shape, const BenchScene& scene, int repeat) {
+  SceneSteps bench(device, shape, scene);
+  SceneTimes times{.name = scene.name, .gaussians = scene.cloud.size(), .size = bench.size()};
+  bench.render();
+  const TileLists& lists = bench.rasteriser().lists;
+  times.status = lists.read_status();
+  const HostTileLists host = download(lists, bench.size());
+  times.pairs = count_pairs(host);
+  CpuBlender cpu(host);
+  const auto image = bench.rasteriser().colour_opacity.download(bench.size().pixels());
+  const std::vector<CpuKernel> kernels = cpu_kernels();
+  for (const CpuKernel& kernel : kernels)
+    times.loops.push_back(
+        {.instructions = kernel.instructions, .colour_difference = difference(image, cpu.blend(kernel))});
+
+  const std::vector<BenchStep> steps = bench.steps();
+  for (const BenchStep& step : steps) times.steps.push_back({.name = step.name});
+  ProgressLine progress(scene.name);
+  for (int round = -kWarmUp; round < repeat; ++round) {
+    for (std::size_t i = 0; i < steps.size(); ++i) {
+      StepTimes warming;
+      measure(device, steps[i], round, round < 0 ? &warming : &times.steps[i]);
+      progress.show(static_cast<double>(round + kWarmUp) / (repeat + kWarmUp), steps[i].name);
+    }
+    for (std::size_t i = 0; i < kernels.size(); ++i) {
+      Times warming;
+      time([&] { cpu.blend(kernels[i]); }, 1, round < 0 ? &warming : &times.loops[i].whole);
+    }
+  }
+  times.device_bytes = device.memory_in_use();
+  return times;
 }
 
 }  // namespace surefield

@@ -27,8 +27,10 @@ struct SceneSize {
   const char* name;
   int gaussians, width, height;
 };
-constexpr SceneSize kScenes[] = {
-    {"small", 20'000, 160, 120}, {"medium", 50'000, 320, 240}, {"large", 150'000, 640, 480}};
+constexpr SceneSize kScenes[] = {{"small", 20'000, 160, 120},
+                                 {"medium", 50'000, 320, 240},
+                                 {"large", 150'000, 640, 480},
+                                 {"huge", 800'000, 1200, 680}};
 
 /// Reproducible with every standard library, unlike the distributions of <random>.
 class Random {
@@ -140,6 +142,7 @@ BenchScene make_bench_scene(gpu::Device& device, std::string_view name) {
        .cy = 0.5 * (size->height - 1)};
   scene.camera.world_to_camera = path.world_to_camera(kSecondsAround);
   const SceneImages seen = renderer.render(scene.camera);
+  scene.sensor_colour.assign(seen.colour.datastart, seen.colour.dataend);
   scene.sensor_depth.assign(seen.depth.begin<float>(), seen.depth.end<float>());
   scene.cloud.resize(static_cast<std::size_t>(size->gaussians));
   fill_map(office, renderer, path, &scene);

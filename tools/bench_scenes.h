@@ -15,7 +15,8 @@ struct BenchScene {
   std::string name;
   GaussianCloud cloud;
   Camera camera;
-  std::vector<float> sensor_depth;  ///< metres, row-major; empty: none
+  std::vector<uint8_t> sensor_colour;  ///< what a sensor would see there, RGB, row-major; empty: as rendered
+  std::vector<float> sensor_depth;     ///< metres, likewise
 };
 
 /// The built-in scenes, from small to large.

@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "engine/gpu/device_report.h"
 #include "engine/gpu/error.h"
@@ -170,6 +171,16 @@ void Device::count_memory(int64_t bytes) {
   uint64_t peak = memory_peak_;
   while (now > peak && !memory_peak_.compare_exchange_weak(peak, now)) {
   }
+}
+
+std::vector<PassTime> Device::take_pass_times() {
+  std::lock_guard lock(pass_times_mutex_);
+  return std::exchange(pass_times_, {});
+}
+
+void Device::add_pass_times(const std::vector<PassTime>& times) {
+  std::lock_guard lock(pass_times_mutex_);
+  pass_times_.insert(pass_times_.end(), times.begin(), times.end());
 }
 
 std::vector<std::string> Device::validation_messages() const {

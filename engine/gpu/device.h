@@ -56,6 +56,12 @@ struct DeviceLimits {
   bool is_cpu = false;                 ///< a software implementation
 };
 
+/// Device time of one recorded dispatch.
+struct PassTime {
+  const char* pass;
+  double milliseconds;
+};
+
 /// An open Vulkan device with one compute queue. Submission is serialised, so several threads may use it.
 class Device {
  public:
@@ -82,6 +88,14 @@ class Device {
   uint64_t memory_in_use() const { return memory_in_use_; }
   uint64_t memory_peak() const { return memory_peak_; }
 
+  /// While on, every dispatch of every recorder is timed, which slows submissions down; take_pass_times()
+  /// returns the times since the last call.
+  void time_passes(bool on) { times_passes_ = on; }
+  bool times_passes() const { return times_passes_; }
+  std::vector<PassTime> take_pass_times();
+  /// Called by Recorder.
+  void add_pass_times(const std::vector<PassTime>& times);
+
   /// Messages of the validation layer so far (only with DeviceOptions::validate).
   std::vector<std::string> validation_messages() const;
 
@@ -102,6 +116,9 @@ class Device {
   DeviceReport report_;
   DeviceLimits limits_;
   std::mutex queue_mutex_;
+  std::atomic<bool> times_passes_{false};
+  std::mutex pass_times_mutex_;
+  std::vector<PassTime> pass_times_;
   std::atomic<uint64_t> memory_in_use_{0};
   std::atomic<uint64_t> memory_peak_{0};
 };

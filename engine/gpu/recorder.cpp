@@ -155,6 +155,7 @@ VkDescriptorSet Recorder::allocate_set(VkDescriptorSetLayout layout) {
 }
 
 void Recorder::timestamp(const char* pass) {
+  if (device_.times_passes()) enable_timestamps();
   if (!queries_ || timed_.size() >= query_capacity_) return;
   vkCmdWriteTimestamp2(commands_, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, queries_,
                        static_cast<uint32_t>(timed_.size()));
@@ -232,6 +233,7 @@ std::vector<PassTime> Recorder::submit() {
   check(vkEndCommandBuffer(commands_), "ending a command buffer");
   device_.submit_and_wait(commands_);
   auto times = read_times();
+  if (device_.times_passes()) device_.add_pass_times(times);
 
   retired_.clear();
   read_.clear();

@@ -12,12 +12,6 @@ namespace surefield::gpu {
 /// Arguments of an indirect dispatch, as a pass writes them: workgroups in x, y, z.
 using DispatchArgs = glsl::uvec3;
 
-/// Device time of one recorded dispatch.
-struct PassTime {
-  const char* pass;
-  double milliseconds;
-};
-
 /// Records passes, fills and copies into one command buffer and submits it. A memory barrier is put in
 /// wherever a pass touches what an earlier one wrote, or writes what an earlier one read, as their binding
 /// tables tell.
@@ -27,7 +21,8 @@ class Recorder {
   ~Recorder();
   Recorder(const Recorder&) = delete;
 
-  /// Times every later dispatch of this recorder; submit() then returns the times.
+  /// Times every later dispatch of this recorder; submit() then returns the times. Device::time_passes() does
+  /// so for all recorders.
   void enable_timestamps(uint32_t capacity = 4096);
 
   /// Dispatches `groups_x` x `groups_y` workgroups. Zero groups record nothing.

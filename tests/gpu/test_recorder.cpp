@@ -58,6 +58,30 @@ TEST_CASE("timestamps name every dispatch, submission by submission") {
   CHECK(values.download(1)[0] == 3 + 1 + 4 + 6);
 }
 
+TEST_CASE("a device that times passes gathers the times of all recorders, and only while it does") {
+  gpu::Device& device = testing::device();
+  if (device.limits().timestamp_ns == 0) return;
+  const testing::Scale scale(device);
+  const auto ones = constant_array(device, "ones", 10, 1), values = constant_array(device, "values", 10, 0);
+  const auto dispatch_in_two_recorders = [&] {
+    gpu::Recorder first(device), second(device);
+    scale.record(first, ones, values, 10);
+    scale.record(second, ones, values, 10);
+    first.submit();
+    scale.record(first, ones, values, 10);
+    second.submit();
+    first.submit();
+  };
+  device.time_passes(true);
+  dispatch_in_two_recorders();
+  device.time_passes(false);
+  dispatch_in_two_recorders();
+  const auto times = device.take_pass_times();
+  CHECK(times.size() == 3);
+  for (const gpu::PassTime& time : times) CHECK(std::string(time.pass) == "test_scale");
+  CHECK(device.take_pass_times().empty());
+}
+
 TEST_CASE("a recorder without timestamps returns no times") {
   gpu::Device& device = testing::device();
   const testing::Scale scale(device);
