@@ -99,7 +99,7 @@ void add_bench(CLI::App& program, Action& action) {
   CLI::App* command = program.add_subcommand("bench", kHelp);
   CLI::Option* scene = command->add_option("--scene", options->scene, "small, medium, large, huge or all")
                            ->capture_default_str();
-  CLI::Option* map = command->add_option("--map", options->map, "PLY file of Gaussians to render instead");
+  CLI::Option* map = command->add_option("--map", options->map, "Gaussians to render instead, PLY or SPZ");
   map->excludes(scene)->needs(
       command->add_option("--camera", options->camera, "JSON file: where to see it from"));
   command->add_option("--device", options->device, "index or part of the name, from `surefield devices`");

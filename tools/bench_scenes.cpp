@@ -10,7 +10,7 @@
 #include "engine/io/error.h"
 #include "engine/io/files.h"
 #include "engine/io/json_file.h"
-#include "engine/io/ply.h"
+#include "engine/io/map_file.h"
 #include "engine/synth/camera_path.h"
 #include "engine/synth/scene_renderer.h"
 
@@ -150,7 +150,7 @@ BenchScene make_bench_scene(gpu::Device& device, std::string_view name) {
 }
 
 BenchScene load_bench_scene(const std::string& map_file, const std::string& camera_file) {
-  BenchScene scene{.name = map_file, .cloud = read_ply(map_file).cloud};
+  BenchScene scene{.name = map_file, .cloud = read_map(map_file).cloud};
   const JsonObject json(camera_file);
   scene.camera.intrinsics = read_intrinsics(json, "width", "height");
   const nlohmann::json& rows = json.at("world_to_camera");

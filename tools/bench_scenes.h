@@ -27,7 +27,7 @@ std::vector<std::string> bench_scene_names();
 /// The same on every run. Throws InputError for an unknown name.
 BenchScene make_bench_scene(gpu::Device& device, std::string_view name);
 
-/// A scene from files: the map (read_ply) and a camera, a JSON object with width, height, fx, fy, cx, cy and
+/// A scene from files: the map (read_map) and a camera, a JSON object with width, height, fx, fy, cx, cy and
 /// world_to_camera (16 numbers, row by row). Throws InputError.
 BenchScene load_bench_scene(const std::string& map_file, const std::string& camera_file);
 

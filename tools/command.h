@@ -30,6 +30,7 @@ void add_fetch(CLI::App& program, Action& action);
 void add_render(CLI::App& program, Action& action);
 void add_report(CLI::App& program, Action& action);
 void add_tables(CLI::App& program, Action& action);
+void add_export(CLI::App& program, Action& action);
 void add_mesh(CLI::App& program, Action& action);
 void add_synth(CLI::App& program, Action& action);
 void add_bench(CLI::App& program, Action& action);

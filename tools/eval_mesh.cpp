@@ -12,7 +12,7 @@
 #include "engine/eval/mesh_metrics.h"
 #include "engine/io/error.h"
 #include "engine/io/files.h"
-#include "engine/io/ply.h"
+#include "engine/io/map_file.h"
 #include "tools/command.h"
 #include "tools/run_folder.h"
 
@@ -140,7 +140,7 @@ std::string table(const CentreDistances& d) {
 
 std::vector<Eigen::Vector3d> centres_of(const std::string& map) {
   std::vector<Eigen::Vector3d> centres;
-  for (const Eigen::Vector3f& mean : read_ply(map).cloud.means) centres.push_back(mean.cast<double>());
+  for (const Eigen::Vector3f& mean : read_map(map).cloud.means) centres.push_back(mean.cast<double>());
   if (centres.empty()) throw InputError(map, "holds no Gaussian");
   return centres;
 }
@@ -151,7 +151,8 @@ void add_mesh_options(CLI::App& eval, EvalMeshOptions& options) {
   CLI::Option* truth = eval.add_option("--ground-truth-mesh", options.truth,
                                        "True mesh, PLY, in the frame of the dataset's true poses");
   eval.add_option("--mesh", options.mesh, "Mesh to compare with it, PLY")->needs(truth);
-  eval.add_option("--map", options.map, "Gaussians whose centres to compare with it, PLY")->needs(truth);
+  eval.add_option("--map", options.map, "Gaussians whose centres to compare with it, PLY or SPZ")
+      ->needs(truth);
 }
 
 int evaluate_mesh(const EvalMeshOptions& options) {

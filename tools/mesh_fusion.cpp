@@ -8,7 +8,7 @@
 #include <optional>
 
 #include "engine/io/error.h"
-#include "engine/io/ply.h"
+#include "engine/io/map_file.h"
 #include "tools/command.h"
 #include "tools/interrupt.h"
 #include "tools/progress.h"
@@ -186,7 +186,7 @@ int integrate_source(TsdfVolume& volume, const Input& input, const MeshOptions& 
     });
   }
   SplatEngine engine(options.engine);
-  engine.assign(read_ply(input.run->path / "map.ply").cloud);
+  engine.assign(read_map(input.run->map_file()).cloud);
   return integrate(volume, input,
                    [&](const FusionView& view) { return rendered_images(engine, view, input.depth_max); });
 }

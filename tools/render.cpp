@@ -8,7 +8,7 @@
 
 #include "engine/io/error.h"
 #include "engine/io/images.h"
-#include "engine/io/ply.h"
+#include "engine/io/map_file.h"
 #include "engine/splat/engine.h"
 #include "tools/command.h"
 
@@ -41,13 +41,13 @@ struct RenderOptions {
   EngineOptions engine;
 };
 
-GaussianCloud read_map(const std::string& file) {
-  PlyCloud ply = read_ply(file);
-  if (ply.dropped > 0) {
+GaussianCloud load_map(const std::string& file) {
+  MapFile map = read_map(file);
+  if (map.dropped > 0) {
     fmt::print(stderr, "surefield: warning: {}: {} Gaussians are not finite and were left out\n", file,
-               ply.dropped);
+               map.dropped);
   }
-  return std::move(ply.cloud);
+  return std::move(map.cloud);
 }
 
 std::vector<float> read_sensor_depth(const RenderOptions& options, const Intrinsics& intrinsics) {
@@ -86,7 +86,7 @@ int render(const RenderOptions& options) {
   const Camera camera = read_camera(options.camera);
   std::vector<float> sensor_depth;
   if (!options.sensor_depth.empty()) sensor_depth = read_sensor_depth(options, camera.intrinsics);
-  const GaussianCloud cloud = read_map(options.map);
+  const GaussianCloud cloud = load_map(options.map);
   std::error_code error;
   std::filesystem::create_directories(options.out, error);
   if (error) throw InputError(options.out, "cannot be created: " + error.message());
@@ -103,7 +103,7 @@ int render(const RenderOptions& options) {
 void add_render(CLI::App& program, Action& action) {
   auto options = std::make_shared<RenderOptions>();
   CLI::App* command = program.add_subcommand("render", "Renders a map from one camera");
-  command->add_option("--map", options->map, "Gaussians in the usual PLY layout")->required();
+  command->add_option("--map", options->map, "Gaussians: PLY in the usual layout, or SPZ")->required();
   command->add_option("--camera", options->camera, "Camera, JSON")->required();
   command->add_option("--out", options->out, "Folder of the images")->required();
   CLI::Option* depth = command->add_option("--sensor-depth", options->sensor_depth,

@@ -1,6 +1,7 @@
 // surefield run: the options; the work is in run_session.
 #include <memory>
 
+#include "engine/io/map_file.h"
 #include "tools/command.h"
 #include "tools/run_session.h"
 
@@ -11,7 +12,8 @@ namespace {
 constexpr const char* kRunExamples =
     "Writes into the folder of --out: trajectory.txt and keyframes.txt (TUM format, camera to world), "
     "map.ply\n"
-    "(the Gaussians), metrics.json and frames.csv (docs/evaluation.md), config.yaml (every setting as "
+    "(the Gaussians; map.spz with --map-format spz), metrics.json and frames.csv (docs/evaluation.md), "
+    "config.yaml (every setting as "
     "used), log.txt.\n"
     "Ctrl-C finishes the current frame and saves everything; a second Ctrl-C quits at once.\n"
     "\n"
@@ -40,6 +42,11 @@ void add_run(CLI::App& program, Action& action) {
       ->required();
   run->add_option("--format", options->format, "Layout of the dataset")
       ->check(CLI::IsMember(run_formats()))
+      ->capture_default_str();
+  run->add_option("--map-format", options->map_format,
+                  "How the map is stored: as 32-bit floats that any splat viewer opens, or compactly "
+                  "(docs/formats.md)")
+      ->check(CLI::IsMember(map_formats()))
       ->capture_default_str();
   run->add_option("--config", options->config,
                   "YAML file, or the name of a built-in one; default: the built-in one of the format");

@@ -36,6 +36,12 @@ nlohmann::json read_metrics(const std::filesystem::path& file) {
 
 }  // namespace
 
+std::filesystem::path RunFolder::map_file() const {
+  const bool compact =
+      !std::filesystem::exists(path / "map.ply") && std::filesystem::exists(path / "map.spz");
+  return path / (compact ? "map.spz" : "map.ply");
+}
+
 double RunFolder::number(const std::string& pointer) const {
   const nlohmann::json::json_pointer at(pointer);
   if (!metrics.contains(at) || !metrics[at].is_number()) return std::numeric_limits<double>::quiet_NaN();

@@ -20,6 +20,9 @@ struct RunFolder {
   Trajectory keyframes;
   std::string configuration;  ///< config.yaml
 
+  /// The file of the map: map.ply, or map.spz where there is none.
+  std::filesystem::path map_file() const;
+
   /// The number at a JSON pointer into metrics such as "/time/total_s"; NaN where it is missing or null.
   double number(const std::string& pointer) const;
   /// The text at a JSON pointer; empty where there is none.

@@ -13,7 +13,7 @@
 #include "engine/gpu/error.h"
 #include "engine/io/error.h"
 #include "engine/io/files.h"
-#include "engine/io/ply.h"
+#include "engine/io/map_file.h"
 #include "tools/build_info.h"
 #include "tools/command.h"
 #include "tools/interrupt.h"
@@ -203,14 +203,24 @@ std::optional<MapQuality> measure_images(const RunRecord& record, const Slam& sl
   return measure_map_quality(input);
 }
 
-void save_results(Results& results, RunRecord& record, const Slam& slam, const Dataset& dataset) {
+/// Saves the map in one format and removes what an earlier run left in another, which is not this run's map.
+void save_map(Results& results, const std::string& format, const GaussianCloud& map) {
+  for (const std::string& other : map_formats()) {
+    std::error_code ignored;
+    if (other != format) std::filesystem::remove(results.folder() / ("map." + other), ignored);
+  }
+  results.save("map." + format, [&](const auto& file) { write_map(file, map); });
+}
+
+void save_results(Results& results, RunRecord& record, const Slam& slam, const Dataset& dataset,
+                  const std::string& map_format) {
   const auto save_trajectory = [&](const std::string& name, const Trajectory& trajectory) {
     results.save(name,
                  [&](const auto& file) { write_trajectory(file, of_reference_camera(trajectory, dataset)); });
   };
   save_trajectory("trajectory.txt", record.trajectory);
   save_trajectory("keyframes.txt", record.keyframes);
-  results.save("map.ply", [&](const auto& file) { write_ply(file, slam.map()); });
+  save_map(results, map_format, slam.map());
   if (record.end == RunEnd::Completed) {
     results.save("the image quality",
                  [&](const auto&) { record.images = measure_images(record, slam, dataset); });
@@ -264,7 +274,7 @@ int run_session(const RunOptions& options) {
 
   const std::exception_ptr failure = feed_stream(record, stream, slam, results.log(), options.quiet);
   complete_record(record, slam, *dataset);
-  save_results(results, record, slam, *dataset);
+  save_results(results, record, slam, *dataset, options.map_format);
   report(results, record, options.quiet);
   for (const std::string& problem : results.problems()) print_error(problem);
   if (failure) std::rethrow_exception(failure);

@@ -46,10 +46,7 @@ void fill_record(const GaussianCloud& cloud, std::size_t i, std::vector<float>& 
 }  // namespace
 
 void write_ply(const std::filesystem::path& file, const GaussianCloud& cloud) {
-  const std::size_t sh_size = cloud.size() * static_cast<std::size_t>(sh_coefficients(cloud.sh_degree)) * 3;
-  const bool consistent = cloud.log_scales.size() == cloud.size() && cloud.rotations.size() == cloud.size() &&
-                          cloud.opacity_logits.size() == cloud.size() && cloud.sh.size() == sh_size;
-  if (!consistent) throw std::logic_error("write_ply: the arrays of the cloud differ in length");
+  if (!cloud.is_consistent()) throw std::logic_error("write_ply: the arrays of the cloud differ in length");
   write_file(file, [&](std::ostream& stream) {
     write_header(stream, cloud);
     std::vector<float> record;

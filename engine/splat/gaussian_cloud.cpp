@@ -2,6 +2,11 @@
 
 namespace surefield {
 
+bool GaussianCloud::is_consistent() const {
+  return log_scales.size() == size() && rotations.size() == size() && opacity_logits.size() == size() &&
+         sh.size() == size() * static_cast<std::size_t>(sh_coefficients(sh_degree)) * 3;
+}
+
 void GaussianCloud::resize(std::size_t count) {
   means.resize(count, Eigen::Vector3f::Zero());
   log_scales.resize(count, Eigen::Vector3f::Zero());

@@ -25,6 +25,9 @@ struct GaussianCloud {
 
   std::size_t size() const { return means.size(); }
 
+  /// Whether every array has the length that size() and sh_degree ask for.
+  bool is_consistent() const;
+
   /// Sets every array to `count` entries (new ones are zero; rotations become the identity).
   void resize(std::size_t count);
 };
