@@ -67,11 +67,14 @@ Layer layer_of(float log_alpha, float transmittance) {
   return l;
 }
 
+// Butterflies count bits: compilers unroll loops that add a constant, not all of those that double a step.
+
 /// Sums a value of each of the two members of a group over the subgroup: even lanes get the total of the first, odd ones
 /// that of the second.
 float reduce_group(float a[GROUP]) {
   const bool odd = (gl_SubgroupInvocationID & 1) != 0;
   float total = (odd ? a[1] : a[0]) + subgroupShuffleXor(odd ? a[0] : a[1], 1);
-  [[unroll]] for (uint step = 2; step < LANES; step *= 2) total += subgroupShuffleXor(total, step);
+  [[unroll]] for (uint bit = 1; bit < 6; ++bit)
+    if ((1u << bit) < LANES) total += subgroupShuffleXor(total, 1u << bit);
   return total;
 }

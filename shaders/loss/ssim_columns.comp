@@ -12,7 +12,7 @@ void main() {
   const int first = int(i / params.width) * STRIP;
 
   SsimMoments m[STRIP];
-  [[unroll]] for (int o = 0; o < STRIP; ++o) m[o] = SsimMoments(vec3(0), vec3(0), vec3(0), vec3(0), vec3(0));
+  [[unroll]] for (int o = 0; o < STRIP; ++o) m[o] = SsimMoments(vec3(0), vec3(0), vec3(0), vec3(0));
   [[unroll]] for (int p = 0; p < STRIP + 2 * WINDOW_RADIUS; ++p) {
     const int row = first + p - WINDOW_RADIUS;
     const bool inside = row >= 0 && row < int(params.height);
@@ -22,8 +22,7 @@ void main() {
       const float w = inside ? WINDOW[p - o] : 0.0;
       m[o].x += w * s.x;
       m[o].y += w * s.y;
-      m[o].xx += w * s.xx;
-      m[o].yy += w * s.yy;
+      m[o].squares += w * s.squares;
       m[o].xy += w * s.xy;
     }
   }
@@ -33,7 +32,7 @@ void main() {
     const SsimMoments s = m[o];
     const vec3 a1 = 2 * s.x * s.y + SSIM_C1, a2 = 2 * (s.xy - s.x * s.y) + SSIM_C2;
     const vec3 b1 = s.x * s.x + s.y * s.y + SSIM_C1;
-    const vec3 b2 = s.xx - s.x * s.x + s.yy - s.y * s.y + SSIM_C2;
+    const vec3 b2 = s.squares - s.x * s.x - s.y * s.y + SSIM_C2;
     const vec3 inverse = 1 / (b1 * b2);
     const vec3 ssim = a1 * a2 * inverse;
     SsimSlopes g;

@@ -12,21 +12,21 @@ void main() {
   const uint row = strip / strips * params.width;
 
   SsimMoments m[STRIP];
-  [[unroll]] for (int o = 0; o < STRIP; ++o) m[o] = SsimMoments(vec3(0), vec3(0), vec3(0), vec3(0), vec3(0));
+  [[unroll]] for (int o = 0; o < STRIP; ++o) m[o] = SsimMoments(vec3(0), vec3(0), vec3(0), vec3(0));
   [[unroll]] for (int p = 0; p < STRIP + 2 * WINDOW_RADIUS; ++p) {
     const int column = first + p - WINDOW_RADIUS;
     const bool inside = column >= 0 && column < int(params.width);
     const uint at = row + uint(clamp(column, 0, int(params.width) - 1));
     const float mask = inside ? 1.0 : 0.0;
     const vec3 x = mask * colour_opacity[at].rgb, y = mask * unpackUnorm4x8(sensor_colour[at]).rgb;
+    const vec3 squares = x * x + y * y, xy = x * y;
     [[unroll]] for (int o = 0; o < STRIP; ++o) {
       if (p < o || p > o + 2 * WINDOW_RADIUS) continue;  // decided when the loops are unrolled
       const float w = WINDOW[p - o];
       m[o].x += w * x;
       m[o].y += w * y;
-      m[o].xx += w * x * x;
-      m[o].yy += w * y * y;
-      m[o].xy += w * x * y;
+      m[o].squares += w * squares;
+      m[o].xy += w * xy;
     }
   }
   uint medians = 0;

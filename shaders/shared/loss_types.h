@@ -14,8 +14,7 @@ SHARED_CONST uint SUM_STRIP = 16;
 struct SsimMoments {
   vec3 x;
   vec3 y;
-  vec3 xx;
-  vec3 yy;
+  vec3 squares;   // xx + yy: SSIM needs no more of them
   vec3 xy;
 };
 

@@ -40,7 +40,9 @@ void main() {
     if (!tile_is_open()) break;
   }
 
-  [[unroll]] for (uint step = LANES / 2; step > 0; step /= 2) {
+  [[unroll]] for (uint bit = 0; bit < 6; ++bit) {
+    const uint step = 1u << bit;
+    if (step >= LANES) continue;
     pose.rotation += subgroupShuffleXor(pose.rotation, step);
     pose.translation += subgroupShuffleXor(pose.translation, step);
   }

@@ -76,7 +76,8 @@ void main() {
     // In units of the image's half size, as 3DGS counts it, so that thresholds do not depend on the resolution.
     densification[id] += vec2(length(g_centre * 0.5 * vec2(c.width, c.height)), 1);
   }
-  [[unroll]] for (uint step = 32; step > 0; step /= 2) {
+  [[unroll]] for (uint bit = 0; bit < 6; ++bit) {
+    const uint step = 1u << bit;
     if (step >= gl_SubgroupSize) continue;
     pose.rotation += subgroupShuffleXor(pose.rotation, step);
     pose.translation += subgroupShuffleXor(pose.translation, step);
