@@ -32,7 +32,7 @@ struct LossDetectionSettings {
 struct SlamSettings {
   int seed = 1;                         ///< drives every random choice
   double depth_max = 5;                 ///< metres; depth beyond is invalid
-  int first_iterations = 400;           ///< mapping steps on the first frame
+  int first_iterations = 100;           ///< mapping steps on the first frame
   int mapping_iterations = 40;          ///< mapping steps per keyframe
   int first_tracking_iterations = 100;  ///< tracking steps of the first tracked frame
   TrackingSettings tracking;

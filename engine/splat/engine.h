@@ -40,7 +40,7 @@ enum class TrackingMethod { GaussNewton, Adam };
 /// How a pose is tracked (paper eq. 19 and 20).
 struct TrackingSettings {
   TrackingMethod method = TrackingMethod::GaussNewton;
-  int renders = 3;       ///< Gauss-Newton: times that the map is rendered and aligned, at most
+  int renders = 2;       ///< Gauss-Newton: times that the map is rendered and aligned, at most
   double balance = 0.2;  ///< Gauss-Newton: weight of the geometric residuals beside the photometric ones
   int iterations = 35;   ///< Adam's steps, at most
   double rate_rotation = 0.0015;      ///< Adam's step, radians

@@ -4,6 +4,7 @@
 #define PASS align_sums
 #define PASS_PARAMS(P)                                          \
   P(uint, width) P(uint, height) P(uint, level) P(uint, strips) \
+  P(uint, stride)  /* of the pixels that take part */              \
   P(float, balance) /* weight of the geometric term */
 #define PASS_BINDINGS(READ, WRITE, UPDATE) \
   READ(0, AlignState, state)               \

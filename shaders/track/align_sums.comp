@@ -22,9 +22,10 @@ void add_residual(inout AlignSums s, float residual, vec3 by_translation, vec3 b
   }
 }
 
-// One invocation per ALIGN_STRIP pixels, `strips` apart. A point of the render moves with the camera and is looked up in
-// the sensor's image: its intensity between four pixels, its depth at the nearest one. The residuals are the difference
-// of intensity, and the distance to the point that the sensor measured along the normal.
+// One invocation per ALIGN_STRIP of the pixels that take part, `strips` times `stride` apart. A point of the render moves
+// with the camera and is looked up in the sensor's image: its intensity between four pixels, its depth at the nearest
+// one. The residuals are the difference of intensity, and the distance to the point that the sensor measured along the
+// normal.
 void main() {
   const uint strip = gl_GlobalInvocationID.x;
   if (strip >= params.strips) return;
@@ -40,7 +41,7 @@ void main() {
   s.squares_colour = s.squares_depth = s.pixels_colour = s.pixels_depth = 0;
 
   for (uint n = 0; n < ALIGN_STRIP; ++n) {
-    const uint i = strip + n * params.strips;
+    const uint i = (strip + n * params.strips) * params.stride;
     const AlignPoint point = points[min(i, pixels - 1)];
     const vec3 Y = R * unproject(k, vec2(i % params.width, i / params.width), point.depth) + t;
     const float z = max(Y.z, 1e-3);
