@@ -1,7 +1,8 @@
 #include "engine/slam/keyframes.h"
 
 #include <algorithm>
-#include <numeric>
+#include <iterator>
+#include <utility>
 
 namespace surefield {
 
@@ -24,6 +25,14 @@ std::vector<Eigen::Vector3f> sample_points(const Frame& frame, const Intrinsics&
   return points;
 }
 
+Keyframe make_keyframe(const Frame& frame, FrameHandle handle, const Camera& camera,
+                       std::vector<Eigen::Vector3f> points) {
+  Keyframe keyframe{frame.index, frame.timestamp, handle, camera, std::move(points)};
+  for (const Eigen::Vector3f& point : keyframe.points) keyframe.middle += point.cast<double>();
+  if (!keyframe.points.empty()) keyframe.middle /= static_cast<double>(keyframe.points.size());
+  return keyframe;
+}
+
 double overlap(const Keyframe& from, const Keyframe& to) {
   const Pose between = to.camera.world_to_camera * from.camera.world_to_camera.inverse();
   const Intrinsics& k = to.camera.intrinsics;
@@ -37,34 +46,56 @@ double overlap(const Keyframe& from, const Keyframe& to) {
   return from.points.empty() ? 0 : static_cast<double>(seen) / static_cast<double>(from.points.size());
 }
 
-KeyframeWindow select_window(const std::vector<Keyframe>& keyframes, int size) {
+std::vector<int> nearest_keyframes(const std::vector<Keyframe>& keyframes, int count) {
+  const int newest = static_cast<int>(keyframes.size()) - 1;
+  const auto place = [&](int k) {
+    return keyframes[k].camera.world_to_camera.inverse().translation().eval();
+  };
+  const auto middle = [&](int k) {
+    return (keyframes[k].camera.world_to_camera.inverse() * keyframes[k].middle).eval();
+  };
+  const Eigen::Vector3d newest_place = place(newest), newest_middle = middle(newest);
+  std::vector<std::pair<double, int>> others;
+  for (int k = newest - 1; k >= 0; --k) {
+    const double apart = (place(k) - newest_place).norm() + (middle(k) - newest_middle).norm();
+    others.emplace_back(k == newest - 1 ? 0 : apart, -k);  // of equals, the more recent first
+  }
+  const auto kept = std::min<std::size_t>(others.size(), count - 1);
+  std::partial_sort(others.begin(), others.begin() + static_cast<std::ptrdiff_t>(kept), others.end());
+  std::vector<int> nearest{newest};
+  for (std::size_t i = 0; i < kept; ++i) nearest.push_back(-others[i].second);
+  return nearest;
+}
+
+KeyframeWindow select_window(const std::vector<Keyframe>& keyframes, const std::vector<int>& near, int size) {
   const int current = static_cast<int>(keyframes.size()) - 1;
   KeyframeWindow window;
   window.members.push_back(current);
-  if (current > 0 && size > 1) window.members.push_back(current - 1);
-
-  std::vector<int> others(std::max(0, current - 1));
-  std::iota(others.begin(), others.end(), 0);
-  std::vector<double> scores;
-  for (int other : others) scores.push_back(overlap(keyframes[current], keyframes[other]));
+  std::vector<std::pair<double, int>> others;
+  for (int k : near) {
+    if (k == current) continue;
+    if (k == current - 1 && size > 1)
+      window.members.push_back(k);
+    else
+      others.emplace_back(overlap(keyframes[current], keyframes[k]), k);
+  }
   // Of equals, the more recent first.
-  std::stable_sort(others.begin(), others.end(),
-                   [&](int a, int b) { return scores[a] != scores[b] ? scores[a] > scores[b] : a > b; });
-  for (int other : others) {
-    if (static_cast<int>(window.members.size()) >= size || scores[other] <= 0) break;
-    window.members.push_back(other);
+  std::sort(others.rbegin(), others.rend());
+  for (const auto& [score, k] : others) {
+    if (static_cast<int>(window.members.size()) >= size || score <= 0) break;
+    window.members.push_back(k);
   }
   std::sort(window.members.begin(), window.members.end());
   window.fixed = window.members.front();
   return window;
 }
 
-std::vector<int> mapping_order(const KeyframeWindow& window, int keyframes, int steps, int past,
+std::vector<int> mapping_order(const KeyframeWindow& window, std::vector<int> near, int steps, int past,
                                std::mt19937& random) {
+  std::sort(near.begin(), near.end());
   std::vector<int> others;
-  for (int k = 0; k < keyframes; ++k)
-    if (std::find(window.members.begin(), window.members.end(), k) == window.members.end())
-      others.push_back(k);
+  std::set_difference(near.begin(), near.end(), window.members.begin(), window.members.end(),
+                      std::back_inserter(others));
   std::vector<int> order;
   while (static_cast<int>(order.size()) < steps) {
     // The current keyframe leads every cycle.

@@ -8,14 +8,19 @@
 
 namespace surefield {
 
-/// A frame that stays on the device for mapping.
+/// A frame that stays for mapping.
 struct Keyframe {
   int index = 0;         ///< Frame::index
   double timestamp = 0;  ///< seconds
   FrameHandle frame = 0;
   Camera camera;
-  std::vector<Eigen::Vector3f> points;  ///< a coarse grid of its depth, camera frame, metres
+  std::vector<Eigen::Vector3f> points;               ///< a coarse grid of its depth, camera frame, metres
+  Eigen::Vector3d middle = Eigen::Vector3d::Zero();  ///< of those points
 };
+
+/// A keyframe that sees `points`.
+Keyframe make_keyframe(const Frame& frame, FrameHandle handle, const Camera& camera,
+                       std::vector<Eigen::Vector3f> points);
 
 /// A coarse grid of the valid depths of a frame, back-projected to the camera frame; for covisibility.
 std::vector<Eigen::Vector3f> sample_points(const Frame& frame, const Intrinsics& intrinsics,
@@ -25,6 +30,10 @@ std::vector<Eigen::Vector3f> sample_points(const Frame& frame, const Intrinsics&
 /// in [0, 1].
 double overlap(const Keyframe& from, const Keyframe& to);
 
+/// The `count` keyframes near the newest one: itself, the one before it, then those whose cameras, and the
+/// middles of what they see, are nearest to its own. Positions in the list of keyframes.
+std::vector<int> nearest_keyframes(const std::vector<Keyframe>& keyframes, int count);
+
 /// The keyframes that one mapping call works on: positions in the list of keyframes.
 struct KeyframeWindow {
   std::vector<int> members;  ///< optimised with their poses, oldest first; the last is the current one
@@ -32,12 +41,13 @@ struct KeyframeWindow {
 };
 
 /// The window of `size` keyframes of the newest one (paper section 3.4): itself, the one before it, and those
-/// that overlap it most.
-KeyframeWindow select_window(const std::vector<Keyframe>& keyframes, int size);
+/// of `near` (see nearest_keyframes()) that overlap it most.
+KeyframeWindow select_window(const std::vector<Keyframe>& keyframes, const std::vector<int>& near, int size);
 
 /// The order in which `steps` mapping steps visit keyframes: cycles through the window, each followed by
-/// `past` keyframes drawn at random from all others, against forgetting. Positions in the list of keyframes.
-std::vector<int> mapping_order(const KeyframeWindow& window, int keyframes, int steps, int past,
+/// `past` keyframes drawn at random from the others of `near`, against forgetting. Positions in the list of
+/// keyframes.
+std::vector<int> mapping_order(const KeyframeWindow& window, std::vector<int> near, int steps, int past,
                                std::mt19937& random);
 
 }  // namespace surefield

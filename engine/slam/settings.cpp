@@ -101,6 +101,10 @@ void bind_spawn(ConfigSchema& schema, SpawnSettings& spawn) {
 void SlamSettings::bind(ConfigSchema& schema) {
   schema.add("seed", &seed, Range{0, INT_MAX}, "drives every random choice");
   schema.add("depth_max", &depth_max, Range{0.1, 1000}, "metres, sensor depth beyond is not used");
+  schema.add(
+      "map_device_mb", &map_device_mb, Range{1, 1e6},
+      "device memory that the Gaussians may take, 10^6 bytes; those that it does not hold wait in host "
+      "memory");
   schema.add("first_iterations", &first_iterations, kSteps, "mapping steps on the first frame");
   schema.add("mapping_iterations", &mapping_iterations, kSteps, "mapping steps per keyframe");
   schema.add("first_tracking_iterations", &first_tracking_iterations, Range{1, 100000},
@@ -116,6 +120,10 @@ void SlamSettings::bind(ConfigSchema& schema) {
       "k, keyframes optimised together: the current, the most recent, and the k - 2 that overlap most");
   schema.add("keyframes.past_keyframes", &keyframes.past_keyframes, Range{0, 1000},
              "random older keyframes among the steps, against forgetting");
+  schema.add(
+      "keyframes.near", &keyframes.near, Range{1, 1000000},
+      "the window and the older keyframes are among this many that are nearest to the current one; the "
+      "Gaussians that none of them sees wait in host memory");
   bind_spawn(schema, spawn);
   bind_densify(schema, densify);
   schema.add("lost.loss_jump", &lost.loss_jump, kFactor,

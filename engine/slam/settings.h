@@ -11,6 +11,7 @@ struct KeyframeSettings {
   double valid_below = 0.7;  ///< also when less than this fraction of the sensor's depth agrees with the map
   int window = 4;            ///< k: current, most recent, and the k - 2 that overlap most
   int past_keyframes = 2;    ///< random older keyframes among the steps, against forgetting
+  int near = 32;             ///< the window and the older ones are among so many nearest to the current
 };
 
 /// How new Gaussians are born (paper section 3.3).
@@ -32,6 +33,7 @@ struct LossDetectionSettings {
 struct SlamSettings {
   int seed = 1;                         ///< drives every random choice
   double depth_max = 5;                 ///< metres; depth beyond is invalid
+  double map_device_mb = 2048;          ///< most device memory of the Gaussians, 10^6 bytes
   int first_iterations = 100;           ///< mapping steps on the first frame
   int mapping_iterations = 40;          ///< mapping steps per keyframe
   int first_tracking_iterations = 100;  ///< tracking steps of the first tracked frame

@@ -8,6 +8,7 @@
 #include <random>
 #include <stdexcept>
 
+#include "engine/slam/active_region.h"
 #include "engine/slam/keyframes.h"
 #include "engine/slam/spawn.h"
 
@@ -26,21 +27,6 @@ FrameView view_of(const Frame& frame, double depth_max) {
           .depth_max = static_cast<float>(depth_max)};
 }
 
-/// Size of the scene that rates and scales are measured by: the depth that nine tenths of the first frame lie
-/// within.
-double scene_extent(const Frame& frame, double depth_max) {
-  std::vector<float> depths;
-  for (int v = 0; v < frame.depth.rows; ++v)
-    for (int u = 0; u < frame.depth.cols; ++u) {
-      const float z = frame.depth.at<float>(v, u);
-      if (z > 0 && z <= depth_max) depths.push_back(z);
-    }
-  if (depths.empty()) throw std::invalid_argument("the first frame has no valid depth");
-  const auto at = depths.begin() + static_cast<std::ptrdiff_t>(depths.size() * 9 / 10);
-  std::nth_element(depths.begin(), at, depths.end());
-  return *at;
-}
-
 /// A frame's pose relative to the keyframe that it was tracked after, so that it follows that keyframe's
 /// refinement.
 struct TrackedFrame {
@@ -55,6 +41,7 @@ struct Slam::Implementation {
   SlamSettings settings;
   Intrinsics intrinsics;
   SplatEngine engine;
+  ActiveRegion region;
   std::mt19937 random;
   double extent = 1;
   std::vector<Keyframe> keyframes;
@@ -65,7 +52,11 @@ struct Slam::Implementation {
   int last_keyframe_frame = 0;                          ///< position among the frames fed
 
   Implementation(const SlamSettings& s, const Intrinsics& k, const EngineOptions& options)
-      : settings(s), intrinsics(k), engine(options), random(static_cast<uint32_t>(s.seed)) {}
+      : settings(s),
+        intrinsics(k),
+        engine(options),
+        region(engine, s),
+        random(static_cast<uint32_t>(s.seed)) {}
 
   Pose world_to_frame(std::size_t i) const {
     const TrackedFrame& f = frames[i];
@@ -91,6 +82,7 @@ struct Slam::Implementation {
   void track(FrameHandle handle, FrameReport& report);
   bool wants_keyframe(const FrameReport& report) const;
   void map_newest(FrameReport& report);
+  void measure(FrameReport& report) const;
   void release_newest();
   bool looks_lost(const TrackingResult& result) const;
   TrackingResult retry(FrameHandle handle, const TrackingSettings& tracking, TrackingResult best,
@@ -115,14 +107,14 @@ const FrameReport& Slam::feed(const Frame& frame) {
   } else {
     const FrameHandle handle = s.engine.load(view_of(frame, s.settings.depth_max));
     s.release_newest();
+    s.region.approach(s.keyframes, sample_points(frame, s.intrinsics, s.settings.depth_max), s.predict());
     s.track(handle, report);
     report.keyframe = s.wants_keyframe(report);
     // Copies of the images: the caller may reuse its own.
     s.newest = {Frame{frame.index, frame.timestamp, frame.colour.clone(), frame.depth.clone()}, handle};
     if (report.keyframe) s.map_newest(report);
   }
-  report.gaussians = s.engine.size();
-  report.device_bytes = s.engine.device_bytes();
+  s.measure(report);
   s.reports.push_back(report);
   return s.reports.back();
 }
@@ -131,7 +123,7 @@ void Slam::finish() {
   Implementation& s = *implementation_;
   if (s.newest && !s.reports.back().lost) s.map_newest(s.reports.back());
   s.release_newest();
-  if (!s.reports.empty()) s.reports.back().device_bytes = s.engine.device_bytes();
+  if (!s.reports.empty()) s.measure(s.reports.back());
 }
 
 bool Slam::Implementation::wants_keyframe(const FrameReport& report) const {
@@ -148,7 +140,13 @@ void Slam::Implementation::map_newest(FrameReport& report) {
   newest.reset();
   map_window(report);
   report.keyframe = true;
+}
+
+/// Notes the size of the map after a frame.
+void Slam::Implementation::measure(FrameReport& report) const {
   report.gaussians = engine.size();
+  report.device_gaussians = engine.device_size();
+  report.device_bytes = engine.device_bytes();
 }
 
 void Slam::Implementation::release_newest() {
@@ -161,8 +159,8 @@ void Slam::Implementation::initialise(const Frame& frame, FrameReport& report) {
   const Camera camera{intrinsics};
   engine.assign(spawn_gaussians(frame, camera, nullptr, settings.spawn, settings.depth_max));
   frames.push_back({frame.timestamp, 0, Pose::Identity()});
-  keyframes.push_back({frame.index, frame.timestamp, engine.load(view_of(frame, settings.depth_max)), camera,
-                       sample_points(frame, intrinsics, settings.depth_max)});
+  keyframes.push_back(make_keyframe(frame, engine.load(view_of(frame, settings.depth_max)), camera,
+                                    sample_points(frame, intrinsics, settings.depth_max)));
   const int half = settings.first_iterations / 2;
   optimise(std::vector<int>(half, 0), {}, report);
   densify();
@@ -221,16 +219,18 @@ void Slam::Implementation::track(FrameHandle handle, FrameReport& report) {
 void Slam::Implementation::add_keyframe(const Frame& frame, FrameHandle handle, const Pose& world_to_camera) {
   const Camera camera{intrinsics, world_to_camera};
   keyframes.push_back(
-      {frame.index, frame.timestamp, handle, camera, sample_points(frame, intrinsics, settings.depth_max)});
+      make_keyframe(frame, handle, camera, sample_points(frame, intrinsics, settings.depth_max)));
   frames.back() = {frame.timestamp, static_cast<int>(keyframes.size()) - 1, Pose::Identity()};
   last_keyframe_frame = static_cast<int>(frames.size()) - 1;
   const RenderImages rendered = engine.render(camera);
-  engine.insert(spawn_gaussians(frame, camera, &rendered, settings.spawn, settings.depth_max));
+  const GaussianCloud births = spawn_gaussians(frame, camera, &rendered, settings.spawn, settings.depth_max);
+  region.settle(keyframes, static_cast<uint32_t>(births.size()));
+  engine.insert(births);
 }
 
 void Slam::Implementation::map_window(FrameReport& report) {
-  const KeyframeWindow window = select_window(keyframes, settings.keyframes.window);
-  const auto order = mapping_order(window, static_cast<int>(keyframes.size()), settings.mapping_iterations,
+  const KeyframeWindow window = select_window(keyframes, region.near(), settings.keyframes.window);
+  const auto order = mapping_order(window, region.near(), settings.mapping_iterations,
                                    settings.keyframes.past_keyframes, random);
   std::vector<int> refined;
   for (int member : window.members)
@@ -287,7 +287,7 @@ GaussianCloud Slam::map() const {
 }
 
 RenderImages Slam::render(const Camera& camera) const {
-  return implementation_->engine.render(camera);
+  return implementation_->engine.render_whole(camera);
 }
 
 const std::vector<FrameReport>& Slam::reports() const {

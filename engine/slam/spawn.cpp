@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 #include <utility>
 
 #include "engine/io/median.h"
@@ -30,6 +31,19 @@ double median_depth_error(const Frame& frame, const RenderImages& rendered, cons
 }
 
 }  // namespace
+
+double scene_extent(const Frame& frame, double depth_max) {
+  std::vector<float> depths;
+  for (int v = 0; v < frame.depth.rows; ++v)
+    for (int u = 0; u < frame.depth.cols; ++u) {
+      const float z = frame.depth.at<float>(v, u);
+      if (z > 0 && z <= depth_max) depths.push_back(z);
+    }
+  if (depths.empty()) throw std::invalid_argument("the first frame has no valid depth");
+  const auto at = depths.begin() + static_cast<std::ptrdiff_t>(depths.size() * 9 / 10);
+  std::nth_element(depths.begin(), at, depths.end());
+  return *at;
+}
 
 GaussianCloud spawn_gaussians(const Frame& frame, const Camera& camera, const RenderImages* rendered,
                               const SpawnSettings& settings, double depth_max) {

@@ -53,49 +53,20 @@ DensifyPlan plan_densification(std::span<const GaussianStatistics> statistics,
 }
 
 Densifier::Densifier(gpu::Device& device)
-    : device_(device),
-      gather_(device, gpu::kWorkgroup),
-      split_(device, gpu::kWorkgroup),
-      sources_(device, "sources") {}
-
-template <class T>
-void Densifier::gather(gpu::Recorder& recorder, gpu::Array<T>& array, uint32_t words, bool only_kept) {
-  const uint64_t entries = static_cast<uint64_t>(new_size_) * words * sizeof(glsl::uint) / sizeof(T);
-  gpu::Array<T> rebuilt(device_, array.buffer().name(), std::max(entries, array.capacity()));
-  recorder.dispatch(gather_, gather_.groups(new_size_),
-                    {.sources = sources_, .from = gpu::as_words(array), .to = gpu::as_words(rebuilt)},
-                    {.count = new_size_, .words = words, .only_kept = only_kept ? 1u : 0u});
-  recorder.replace(array, std::move(rebuilt));
-}
-
-template <class T>
-void Densifier::gather_parameter(gpu::Recorder& recorder, Parameter<T>& parameter, uint32_t words) {
-  gather(recorder, parameter.value, words, false);
-  gather(recorder, parameter.first_moment, words, true);
-  gather(recorder, parameter.second_moment, words, true);
-}
+    : device_(device), rebuild_(device), split_(device, gpu::kWorkgroup) {}
 
 DensifyResult Densifier::densify(GaussianMap& map, const DensifySettings& settings) {
   const DensifyPlan plan = plan_densification(read_statistics(map), settings);
-  new_size_ = static_cast<uint32_t>(plan.sources.size());
-  sources_.upload(plan.sources);
+  rebuild_.rebuild(map, plan.sources);
   gpu::Recorder recorder(device_);
-  gather_parameter(recorder, map.means, 3);
-  gather_parameter(recorder, map.log_scales, 3);
-  gather_parameter(recorder, map.rotations, 4);
-  gather_parameter(recorder, map.opacity_logits, 1);
-  gather_parameter(recorder, map.sh, 3 * static_cast<uint32_t>(sh_coefficients(map.sh_degree())));
-  gather(recorder, map.steps, 1, true);
-  recorder.reserve(map.densification, map.steps.capacity());
-  recorder.fill(map.densification, new_size_, 0);
-  recorder.dispatch(split_, split_.groups(new_size_),
-                    {.sources = sources_,
+  recorder.fill(map.densification, map.size(), 0);
+  recorder.dispatch(split_, split_.groups(map.size()),
+                    {.sources = rebuild_.sources,
                      .means = map.means.value,
                      .log_scales = map.log_scales.value,
                      .rotations = map.rotations.value},
-                    {.count = new_size_, .seed = static_cast<uint32_t>(settings.seed)});
+                    {.count = map.size(), .seed = static_cast<uint32_t>(settings.seed)});
   recorder.submit();
-  map.set_size(new_size_);
   return plan.result;
 }
 

@@ -1,9 +1,7 @@
 #pragma once
 
-#include "engine/gpu/recorder.h"
 #include "engine/splat/engine.h"
-#include "engine/splat/gaussian_map.h"
-#include "shaders/shared/gather_words.h"
+#include "engine/splat/map_rebuild.h"
 #include "shaders/shared/split_children.h"
 
 namespace surefield {
@@ -35,16 +33,9 @@ class Densifier {
   DensifyResult densify(GaussianMap& map, const DensifySettings& settings);
 
  private:
-  template <class T>
-  void gather(gpu::Recorder& recorder, gpu::Array<T>& array, uint32_t words, bool only_kept);
-  template <class T>
-  void gather_parameter(gpu::Recorder& recorder, Parameter<T>& parameter, uint32_t words);
-
   gpu::Device& device_;
-  gpu::Pass<passes::gather_words> gather_;
+  MapRebuild rebuild_;
   gpu::Pass<passes::split_children> split_;
-  gpu::Array<glsl::uint> sources_;
-  uint32_t new_size_ = 0;
 };
 
 }  // namespace surefield

@@ -2,11 +2,12 @@
 
 #include <chrono>
 #include <stdexcept>
-#include <unordered_map>
 
 #include "engine/splat/adam_tracker.h"
 #include "engine/splat/densifier.h"
+#include "engine/splat/frame_store.h"
 #include "engine/splat/gauss_newton_tracker.h"
+#include "engine/splat/map_blocks.h"
 #include "engine/splat/mapper.h"
 
 namespace surefield {
@@ -15,6 +16,7 @@ namespace {
 
 // Mapping steps per submission: a driver may end a submission that runs for seconds.
 constexpr std::size_t kMappingBatch = 5;
+static_assert(kMappingBatch < FrameStore::kPlaces, "a submission's frames are on the device together");
 
 }  // namespace
 
@@ -27,8 +29,8 @@ struct SplatEngine::Implementation {
   GaussNewtonTracker gauss_newton_tracker;
   Mapper mapper;
   Densifier densifier;
-  std::unordered_map<FrameHandle, SensorFrame> frames;
-  FrameHandle next_frame = 0;
+  FrameStore frames;
+  MapBlocks blocks;
 
   explicit Implementation(const EngineOptions& options)
       : device({.selector = options.device, .validate = options.validate}),
@@ -38,7 +40,9 @@ struct SplatEngine::Implementation {
         adam_tracker(device),
         gauss_newton_tracker(device),
         mapper(device),
-        densifier(device) {}
+        densifier(device),
+        frames(device),
+        blocks(device) {}
 
   /// Takes the steps of `order`, a few per submission; steps from the first on that found too little room are
   /// taken again.
@@ -49,7 +53,7 @@ struct SplatEngine::Implementation {
       const std::size_t end = std::min(order.size(), done + kMappingBatch);
       for (std::size_t i = done; i < end; ++i) {
         const MappingView& view = views[order[i]];
-        mapper.record_step(recorder, rasteriser, map, frames.at(view.frame), cameras[order[i]],
+        mapper.record_step(recorder, rasteriser, map, frames.on_device(view.frame), cameras[order[i]],
                            view.refine_pose, settings, extent);
       }
       recorder.submit();
@@ -64,17 +68,16 @@ SplatEngine::SplatEngine(const EngineOptions& options)
 SplatEngine::~SplatEngine() = default;
 
 FrameHandle SplatEngine::load(const FrameView& frame) {
-  const FrameHandle handle = implementation_->next_frame++;
-  implementation_->frames.emplace(handle, SensorFrame(implementation_->device, frame));
-  return handle;
+  return implementation_->frames.load(frame);
 }
 
 void SplatEngine::release(FrameHandle frame) {
-  implementation_->frames.erase(frame);
+  implementation_->frames.release(frame);
 }
 
 void SplatEngine::assign(const GaussianCloud& cloud) {
   implementation_->map.assign(cloud);
+  implementation_->blocks.clear();
 }
 
 void SplatEngine::insert(const GaussianCloud& cloud) {
@@ -82,11 +85,33 @@ void SplatEngine::insert(const GaussianCloud& cloud) {
 }
 
 GaussianCloud SplatEngine::map() const {
-  return implementation_->map.download();
+  GaussianCloud cloud = implementation_->map.download();
+  implementation_->blocks.append_to(cloud, implementation_->map);
+  return cloud;
 }
 
 uint32_t SplatEngine::size() const {
+  return implementation_->map.size() + implementation_->blocks.parked();
+}
+
+uint32_t SplatEngine::device_size() const {
   return implementation_->map.size();
+}
+
+void SplatEngine::set_map_budget(uint64_t bytes) {
+  implementation_->blocks.set_budget(bytes);
+}
+
+bool SplatEngine::is_whole(uint32_t births) const {
+  return implementation_->blocks.is_whole(implementation_->map, births);
+}
+
+bool SplatEngine::recall(const WorldPoints& points) {
+  return implementation_->blocks.recall(implementation_->map, points);
+}
+
+int SplatEngine::focus(std::span<const WorldPoints> regions, uint32_t births) {
+  return implementation_->blocks.focus(implementation_->map, regions, births);
 }
 
 RenderImages SplatEngine::render(const Camera& camera) const {
@@ -97,10 +122,17 @@ RenderImages SplatEngine::render(const Camera& camera, std::span<const float> se
   return implementation_->rasteriser.render(implementation_->map, camera, sensor_depth);
 }
 
+RenderImages SplatEngine::render_whole(const Camera& camera) const {
+  if (implementation_->blocks.parked() == 0) return render(camera);
+  GaussianMap whole(implementation_->device);
+  whole.assign(map());
+  return implementation_->rasteriser.render(whole, camera);
+}
+
 TrackingResult SplatEngine::track(FrameHandle frame, const Camera& start, const TrackingSettings& settings) {
   Implementation& i = *implementation_;
   const auto track_with = [&](auto& tracker) {
-    return tracker.track(i.rasteriser, i.tracking_loss, i.map, i.frames.at(frame), start, settings);
+    return tracker.track(i.rasteriser, i.tracking_loss, i.map, i.frames.on_device(frame), start, settings);
   };
   return settings.method == TrackingMethod::Adam ? track_with(i.adam_tracker)
                                                  : track_with(i.gauss_newton_tracker);
@@ -118,7 +150,8 @@ MappingResult SplatEngine::optimise(std::span<MappingView> views, std::span<cons
 
   MappingResult result;
   result.iterations = static_cast<int>(order.size());
-  if (!order.empty()) result.loss = i.mapper.read_loss(i.frames.at(views[order.back()].frame), settings);
+  if (!order.empty())
+    result.loss = i.mapper.read_loss(i.frames.on_device(views[order.back()].frame), settings);
   result.milliseconds =
       std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
   return result;
@@ -132,7 +165,7 @@ EngineReport SplatEngine::report() const {
   const gpu::Device& device = implementation_->device;
   return {.device = device.report().name,
           .driver = device.report().driver,
-          .map_bytes = implementation_->map.parameter_bytes(),
+          .map_bytes = size() * implementation_->map.parameter_bytes(),
           .device_peak_bytes = device.memory_peak(),
           .validation_messages = device.validation_messages()};
 }

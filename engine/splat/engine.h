@@ -22,8 +22,11 @@ struct EngineOptions {
 /// Which rendered depth the depth terms of a loss use.
 enum class DepthKind { Alpha, Normalised };
 
-/// A frame that the engine holds on the device.
+/// A frame that the engine holds.
 using FrameHandle = int;
+
+/// Places in the world, metres.
+using WorldPoints = std::vector<Eigen::Vector3f>;
 
 /// Images of one frame in host memory, row-major.
 struct FrameView {
@@ -129,7 +132,8 @@ class SplatEngine {
   explicit SplatEngine(const EngineOptions& options = {});
   ~SplatEngine();
 
-  /// Copies a frame to the device, or releases it.
+  /// Takes a frame in, or releases it. The images of a few frames are on the device, those of the others wait
+  /// in host memory, without loss, until they are asked for.
   FrameHandle load(const FrameView& frame);
   void release(FrameHandle frame);
 
@@ -138,10 +142,29 @@ class SplatEngine {
   void insert(const GaussianCloud& cloud);
   GaussianCloud map() const;
   uint32_t size() const;
+  /// Gaussians on the device; see set_map_budget().
+  uint32_t device_size() const;
+
+  /// Sets how much device memory the Gaussians may take, with all that is kept for each of them. The map is
+  /// then in two parts: what focus() and recall() ask for is on the device, and everything else waits in host
+  /// memory, as it was. All verbs but map(), size() and render_whole() work on the part on the device.
+  void set_map_budget(uint64_t bytes);
+  /// Whether the whole map is on the device, with room for so many more Gaussians.
+  bool is_whole(uint32_t births = 0) const;
+  /// Brings back the Gaussians near these places: within half a metre, and up to half a metre more. Returns
+  /// false, with nothing done, when there is no room for them.
+  bool recall(const WorldPoints& points);
+  /// Has on the device what is near the places of regions[0], and of as many more regions, in this order, as
+  /// there is room for beside so many `births`; moves the rest to host memory where it is worth it. Returns
+  /// how many regions are on the device: at least the first, of which there may be a part, nearest its
+  /// places, when there is no room for all of it.
+  int focus(std::span<const WorldPoints> regions, uint32_t births);
 
   /// Renders a camera; with sensor depth (metres, row-major), also the uncertainty.
   RenderImages render(const Camera& camera) const;
   RenderImages render(const Camera& camera, std::span<const float> sensor_depth) const;
+  /// Renders the whole map: for that time it is on the device beyond the budget.
+  RenderImages render_whole(const Camera& camera) const;
 
   /// Finds the pose of a frame in the fixed map, starting from that of `start`.
   TrackingResult track(FrameHandle frame, const Camera& start, const TrackingSettings& settings);

@@ -1,5 +1,7 @@
 #include "engine/splat/gaussian_map.h"
 
+#include <algorithm>
+#include <cstring>
 #include <stdexcept>
 
 #include "engine/gpu/recorder.h"
@@ -111,8 +113,61 @@ GaussianCloud GaussianMap::download() const {
 }
 
 uint64_t GaussianMap::parameter_bytes() const {
-  return size_ *
-         (2 * sizeof(vec3) + sizeof(vec4) + sizeof(float) + sh_coefficients(sh_degree_) * sizeof(vec3));
+  return 2 * sizeof(vec3) + sizeof(vec4) + sizeof(float) + sh_coefficients(sh_degree_) * sizeof(vec3);
+}
+
+uint32_t GaussianMap::record_words() const {
+  const auto parameters = static_cast<uint32_t>(parameter_bytes() / sizeof(uint32_t));
+  return 3 * parameters + 3;  // each with two moments; steps and statistics
+}
+
+std::vector<uint32_t> GaussianMap::read_records(uint32_t first) {
+  const uint32_t taken = size_ - first, stride = record_words();
+  std::vector<uint32_t> records(std::size_t{taken} * stride), column;
+  uint32_t offset = 0;
+  for_each_array([&](const auto& array, uint32_t words, bool) {
+    column.resize(std::size_t{taken} * words);
+    array.buffer().download(column.data(), uint64_t{first} * words * sizeof(uint32_t),
+                            column.size() * sizeof(uint32_t));
+    for (std::size_t i = 0; i < taken; ++i)
+      std::copy_n(&column[i * words], words, &records[i * stride + offset]);
+    offset += words;
+  });
+  return records;
+}
+
+void GaussianMap::append_records(std::span<const uint32_t> records) {
+  const uint32_t stride = record_words(), added = static_cast<uint32_t>(records.size() / stride);
+  reserve(size_ + added);
+  std::vector<uint32_t> column;
+  uint32_t offset = 0;
+  for_each_array([&](auto& array, uint32_t words, bool) {
+    column.resize(std::size_t{added} * words);
+    for (std::size_t i = 0; i < added; ++i)
+      std::copy_n(&records[i * stride + offset], words, &column[i * words]);
+    array.buffer().upload(column.data(), uint64_t{size_} * words * sizeof(uint32_t),
+                          column.size() * sizeof(uint32_t));
+    offset += words;
+  });
+  set_size(size_ + added);
+}
+
+void append_to(GaussianCloud& cloud, std::span<const uint32_t> records, uint32_t record_words) {
+  const std::size_t before = cloud.size(), count = records.size() / record_words;
+  const auto sh_floats = 3 * static_cast<std::size_t>(sh_coefficients(cloud.sh_degree));
+  cloud.resize(before + count);
+  for (std::size_t i = 0; i < count; ++i) {
+    const uint32_t* from = &records[i * record_words];
+    const auto take = [&from](void* to, std::size_t words) {
+      std::memcpy(to, from, words * sizeof(uint32_t));
+      from += words;
+    };
+    take(&cloud.means[before + i], 3);
+    take(&cloud.log_scales[before + i], 3);
+    take(&cloud.rotations[before + i], 4);
+    take(&cloud.opacity_logits[before + i], 1);
+    take(&cloud.sh[(before + i) * sh_floats], sh_floats);
+  }
 }
 
 }  // namespace surefield

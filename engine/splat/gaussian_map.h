@@ -39,8 +39,20 @@ class GaussianMap {
   /// Reads the map back.
   GaussianCloud download() const;
 
-  /// Device memory of the parameters alone (without moments), bytes.
+  /// Bytes of the parameters of one Gaussian alone, without moments.
   uint64_t parameter_bytes() const;
+
+  /// Calls visit(array, words, state) for every array that describes Gaussians: `words` is how many 32-bit
+  /// words of it belong to one; `state` tells moments and statistics from the parameters, which come first.
+  template <class Visit>
+  void for_each_array(Visit&& visit);
+
+  /// 32-bit words that describe one Gaussian: a record, its parts in the order of for_each_array().
+  uint32_t record_words() const;
+  /// Reads everything about the Gaussians from `first` on, one record after the other.
+  std::vector<uint32_t> read_records(uint32_t first);
+  /// Adds Gaussians at the end as they were when they were read.
+  void append_records(std::span<const uint32_t> records);
 
   Parameter<glsl::vec3> means;
   Parameter<glsl::vec3> log_scales;
@@ -59,5 +71,29 @@ class GaussianMap {
   uint32_t size_ = 0;
   int sh_degree_ = 0;
 };
+
+/// Adds the parameters of records of GaussianMap to a cloud of the same SH degree.
+void append_to(GaussianCloud& cloud, std::span<const uint32_t> records, uint32_t record_words);
+
+template <class Visit>
+void GaussianMap::for_each_array(Visit&& visit) {
+  const auto sh_words = 3 * static_cast<uint32_t>(sh_coefficients(sh_degree_));
+  visit(means.value, 3, false);
+  visit(log_scales.value, 3, false);
+  visit(rotations.value, 4, false);
+  visit(opacity_logits.value, 1, false);
+  visit(sh.value, sh_words, false);
+  const auto moments = [&](auto& parameter, uint32_t words) {
+    visit(parameter.first_moment, words, true);
+    visit(parameter.second_moment, words, true);
+  };
+  moments(means, 3);
+  moments(log_scales, 3);
+  moments(rotations, 4);
+  moments(opacity_logits, 1);
+  moments(sh, sh_words);
+  visit(steps, 1, true);
+  visit(densification, 2, true);
+}
 
 }  // namespace surefield

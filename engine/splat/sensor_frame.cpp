@@ -2,10 +2,16 @@
 
 namespace surefield {
 
-SensorFrame::SensorFrame(gpu::Device& device, const FrameView& view)
-    : size{static_cast<uint32_t>(view.width), static_cast<uint32_t>(view.height)},
-      colour(device, "sensor colour", size.pixels()),
-      depth(device, "sensor depth", size.pixels()) {
+SensorFrame::SensorFrame(gpu::Device& device)
+    : colour(device, "sensor colour"), depth(device, "sensor depth") {}
+
+SensorFrame::SensorFrame(gpu::Device& device, const FrameView& view) : SensorFrame(device) {
+  assign(view);
+}
+
+void SensorFrame::assign(const FrameView& view) {
+  size = {static_cast<uint32_t>(view.width), static_cast<uint32_t>(view.height)};
+  valid_pixels = 0;
   std::vector<glsl::uint> packed(size.pixels());
   std::vector<float> metres(size.pixels(), 0.0f);
   for (uint64_t i = 0; i < size.pixels(); ++i) {

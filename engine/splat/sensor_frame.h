@@ -12,7 +12,12 @@ struct SensorFrame {
   gpu::Array<float> depth;        ///< metres, 0 where invalid
   uint32_t valid_pixels = 0;      ///< pixels with depth
 
+  /// Without a frame yet.
+  explicit SensorFrame(gpu::Device& device);
   SensorFrame(gpu::Device& device, const FrameView& view);
+
+  /// Puts a frame in the place of the one before.
+  void assign(const FrameView& view);
 };
 
 }  // namespace surefield

@@ -18,7 +18,8 @@ Keyframe keyframe(double x, double yaw = 0) {
   Pose camera_to_world = Pose::Identity();
   camera_to_world.translate(Eigen::Vector3d(x, 0, 0))
       .rotate(Eigen::AngleAxisd(yaw, Eigen::Vector3d::UnitY()));
-  return {.camera = {kIntrinsics, camera_to_world.inverse()}, .points = sample_points(frame, kIntrinsics, 5)};
+  return make_keyframe(frame, 0, {kIntrinsics, camera_to_world.inverse()},
+                       sample_points(frame, kIntrinsics, 5));
 }
 
 }  // namespace
@@ -49,24 +50,38 @@ TEST_CASE("overlap is one for the same view, less to the side, none behind") {
 
 TEST_CASE("the window holds the current keyframe, the one before, and the best overlaps") {
   const std::vector<Keyframe> keyframes{keyframe(0.1), keyframe(9), keyframe(0.5), keyframe(5), keyframe(0)};
-  const KeyframeWindow window = select_window(keyframes, 4);
+  const std::vector<int> all{4, 3, 2, 1, 0};
+  const KeyframeWindow window = select_window(keyframes, all, 4);
   CHECK(window.members == std::vector<int>{0, 2, 3, 4});
   CHECK(window.fixed == 0);
-  CHECK(select_window(keyframes, 1).members == std::vector<int>{4});
-  CHECK(select_window({keyframe(0)}, 4).members == std::vector<int>{0});
+  CHECK(select_window(keyframes, all, 1).members == std::vector<int>{4});
+  CHECK(select_window(keyframes, {4, 3, 2, 1}, 4).members == std::vector<int>{2, 3, 4});
+  CHECK(select_window(keyframes, {4}, 4).members == std::vector<int>{4});
+  CHECK(select_window({keyframe(0)}, {0}, 4).members == std::vector<int>{0});
   // What does not overlap at all is of no use.
-  CHECK(select_window({keyframe(9), keyframe(5), keyframe(0)}, 4).members == std::vector<int>{1, 2});
+  CHECK(select_window({keyframe(9), keyframe(5), keyframe(0)}, {2, 1, 0}, 4).members ==
+        std::vector<int>{1, 2});
 }
 
 TEST_CASE("the mapping order cycles through the window and visits the past") {
   const KeyframeWindow window{{2, 5, 6}, 2};
   std::mt19937 random(1), again(1);
-  const auto order = mapping_order(window, 7, 23, 2, random);
+  const std::vector<int> near{6, 5, 0, 1, 2, 4};
+  const auto order = mapping_order(window, near, 23, 2, random);
   REQUIRE(order.size() == 23);
-  CHECK(order == mapping_order(window, 7, 23, 2, again));
+  CHECK(order == mapping_order(window, {0, 1, 2, 4, 5, 6}, 23, 2, again));
   CHECK(order[0] == 6);
   CHECK(std::count(order.begin(), order.end(), 6) == 5);
-  for (int k : order) CHECK((k >= 0 && k < 7));
+  for (int k : order) CHECK((k >= 0 && k < 7 && k != 3));
   CHECK(std::count_if(order.begin(), order.end(), [](int k) { return k != 2 && k != 5 && k != 6; }) == 8);
-  CHECK(mapping_order({{0}, 0}, 1, 3, 2, random) == std::vector<int>{0, 0, 0});
+  CHECK(mapping_order({{0}, 0}, {0}, 3, 2, random) == std::vector<int>{0, 0, 0});
+}
+
+TEST_CASE("the nearest keyframes stand near the newest and see what it sees; it and the one before lead") {
+  const std::vector<Keyframe> keyframes{keyframe(2),    keyframe(0, M_PI), keyframe(0.5), keyframe(0.5),
+                                        keyframe(1, 1), keyframe(9),       keyframe(0)};
+  CHECK(nearest_keyframes(keyframes, 10) == std::vector<int>{6, 5, 3, 2, 4, 0, 1});
+  CHECK(nearest_keyframes(keyframes, 4) == std::vector<int>{6, 5, 3, 2});
+  CHECK(nearest_keyframes(keyframes, 1) == std::vector<int>{6});
+  CHECK(nearest_keyframes({keyframe(3)}, 4) == std::vector<int>{0});
 }

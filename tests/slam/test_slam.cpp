@@ -71,6 +71,23 @@ TEST_CASE("SLAM follows the synthetic office, and the same run gives the same bi
   CHECK(first.map.sh == second.map.sh);
 }
 
+TEST_CASE("a run on a small budget of device memory keeps to it, and its map is that of the whole run") {
+  SlamSettings settings = quick();
+  settings.first_iterations = 20;
+  settings.map_device_mb = 4;
+  settings.keyframes.near = 2;
+  const Run small = run(9, settings);
+  CHECK(evaluate_trajectory(small.trajectory, small.truth).ate.rmse < 0.02);
+  const FrameReport& last = small.reports.back();
+  CHECK(small.map.size() == last.gaussians);
+  CHECK(last.device_gaussians < last.gaussians);
+  CHECK(last.device_gaussians <= 4000000 / 512);
+  const Run again = run(9, settings);
+  for (std::size_t i = 0; i < 9; ++i)
+    CHECK(small.trajectory[i].camera_to_world.matrix() == again.trajectory[i].camera_to_world.matrix());
+  CHECK(small.map.means == again.map.means);
+}
+
 TEST_CASE("a frame that shows something else is reported as lost after re-tries, and the run goes on") {
   const SyntheticDataset dataset = office(6);
   Slam slam(quick(), dataset.intrinsics(), options());

@@ -1,0 +1,70 @@
+#include "engine/splat/frame_store.h"
+
+#include <algorithm>
+
+namespace surefield {
+
+FrameHandle FrameStore::load(const FrameView& view) {
+  const std::size_t at = free_place();
+  Place& place = places_[at];
+  place.images.assign(view);
+  place.last_use = ++uses_;
+  place.frame = next_frame_;
+  entries_[next_frame_] = {at, place.images.size, place.images.valid_pixels, std::nullopt};
+  return next_frame_++;
+}
+
+void FrameStore::release(FrameHandle frame) {
+  const auto entry = entries_.find(frame);
+  if (entry == entries_.end()) return;
+  if (entry->second.place) places_[*entry->second.place].frame.reset();
+  entries_.erase(entry);
+}
+
+const SensorFrame& FrameStore::on_device(FrameHandle frame) {
+  Entry& entry = entries_.at(frame);
+  if (!entry.place) {
+    const std::size_t at = free_place();
+    unpack(entry, places_[at].images);
+    places_[at].frame = frame;
+    entry.place = at;
+  }
+  Place& place = places_[*entry.place];
+  place.last_use = ++uses_;
+  return place.images;
+}
+
+/// A place for another frame: a free one, else that of the frame that was not asked for the longest.
+std::size_t FrameStore::free_place() {
+  const auto is_free = [](const Place& place) { return !place.frame; };
+  auto found = std::find_if(places_.begin(), places_.end(), is_free);
+  if (found == places_.end() && places_.size() < kPlaces) {
+    places_.reserve(kPlaces);  // references to the others stay good
+    found = places_.insert(places_.end(), Place{SensorFrame(device_), std::nullopt});
+  }
+  if (found == places_.end()) {
+    found = std::min_element(places_.begin(), places_.end(),
+                             [](const Place& a, const Place& b) { return a.last_use < b.last_use; });
+    pack(*found);
+  }
+  return static_cast<std::size_t>(found - places_.begin());
+}
+
+/// Frees a place; the frame's images are read back the first time that it leaves the device.
+void FrameStore::pack(Place& place) {
+  Entry& entry = entries_.at(*place.frame);
+  const uint64_t pixels = entry.size.pixels();
+  if (!entry.packed)
+    entry.packed.emplace(place.images.colour.download(pixels), place.images.depth.download(pixels));
+  entry.place.reset();
+  place.frame.reset();
+}
+
+void FrameStore::unpack(const Entry& entry, SensorFrame& images) const {
+  images.size = entry.size;
+  images.valid_pixels = entry.valid_pixels;
+  images.colour.upload(entry.packed->colour());
+  images.depth.upload(entry.packed->depth());
+}
+
+}  // namespace surefield
