@@ -8,6 +8,8 @@
 
 #include "engine/gpu/device_report.h"
 #include "engine/gpu/error.h"
+#include "engine/gpu/pipeline_builder.h"
+#include "engine/gpu/pipeline_file.h"
 
 namespace surefield::gpu {
 
@@ -91,6 +93,7 @@ Device::Device(const DeviceOptions& options) {
         !options.force_descriptor_pool && has_extension(physical_, VK_KHR_PUSH_DESCRIPTOR_EXTENSION_NAME);
     vkGetPhysicalDeviceMemoryProperties(physical_, &memory_);
     create_logical_device();
+    create_pipeline_builder(options.cache_folder);
   } catch (...) {
     destroy();
     throw;
@@ -102,6 +105,7 @@ Device::~Device() {
 }
 
 void Device::destroy() {
+  pipeline_builder_.reset();
   if (device_) vkDestroyDevice(device_, nullptr);
   if (messenger_) {
     const auto destroy = reinterpret_cast<PFN_vkDestroyDebugUtilsMessengerEXT>(
@@ -138,6 +142,22 @@ void Device::create_logical_device() {
   if (limits_.push_descriptors)
     push_descriptor_set_ = reinterpret_cast<PFN_vkCmdPushDescriptorSetKHR>(
         vkGetDeviceProcAddr(device_, "vkCmdPushDescriptorSetKHR"));
+}
+
+void Device::create_pipeline_builder(const std::filesystem::path& cache_folder) {
+  std::filesystem::path file = cache_folder.empty() ? user_cache_folder() : cache_folder;
+  VkPhysicalDeviceProperties properties;
+  vkGetPhysicalDeviceProperties(physical_, &properties);
+  if (!file.empty()) file /= pipeline_file_name(properties);
+  pipeline_builder_ = std::make_unique<PipelineBuilder>(physical_, device_, file);
+}
+
+std::shared_future<VkPipeline> Device::build_pipeline(std::function<VkPipeline(VkPipelineCache)> build) {
+  return pipeline_builder_->build(std::move(build));
+}
+
+void Device::finish_pipelines() {
+  pipeline_builder_->wait();
 }
 
 void Device::submit_and_wait(VkCommandBuffer commands) {

@@ -5,7 +5,9 @@
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
+#include <filesystem>
 #include <functional>
+#include <future>
 #include <memory>
 #include <mutex>
 #include <string>
@@ -23,6 +25,8 @@ struct DeviceOptions {
   /// Bind with descriptor sets from a pool even where the device has push descriptors (for tests of that
   /// fallback).
   bool force_descriptor_pool = false;
+  /// Where what the driver compiles is kept between runs. Empty: user_cache_folder().
+  std::filesystem::path cache_folder;
 };
 
 /// What `surefield devices` prints about one device.
@@ -56,6 +60,8 @@ struct DeviceLimits {
   bool is_cpu = false;                 ///< a software implementation
 };
 
+class PipelineBuilder;
+
 /// Device time of one recorded dispatch.
 struct PassTime {
   const char* pass;
@@ -80,6 +86,11 @@ class Device {
   /// Submits a command buffer and waits until it has finished.
   void submit_and_wait(VkCommandBuffer commands);
 
+  /// Has a pipeline built by another thread: `build` is called with the cache to build it with.
+  std::shared_future<VkPipeline> build_pipeline(std::function<VkPipeline(VkPipelineCache)> build);
+  /// Waits until all pipelines have been built, so that none is waited for later.
+  void finish_pipelines();
+
   /// Index of a memory type among `type_bits` with all of `flags`. Throws Error(MissingFeature).
   uint32_t memory_type(uint32_t type_bits, VkMemoryPropertyFlags flags) const;
 
@@ -101,6 +112,7 @@ class Device {
 
  private:
   void create_logical_device();
+  void create_pipeline_builder(const std::filesystem::path& cache_folder);
   void destroy();
 
   struct Validation;
@@ -113,6 +125,7 @@ class Device {
   uint32_t queue_family_ = 0;
   PFN_vkCmdPushDescriptorSetKHR push_descriptor_set_ = nullptr;
   VkPhysicalDeviceMemoryProperties memory_{};
+  std::unique_ptr<PipelineBuilder> pipeline_builder_;
   DeviceReport report_;
   DeviceLimits limits_;
   std::mutex queue_mutex_;

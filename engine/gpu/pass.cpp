@@ -14,7 +14,11 @@ Pipeline::Pipeline(Device& device, const PassInfo& info, uint32_t workgroup_size
       workgroup_size_(workgroup_size) {
   try {
     create_layouts();
-    create_pipeline(info.constants);
+    std::vector<uint32_t> constants{workgroup_size};
+    constants.insert(constants.end(), info.constants.begin(), info.constants.end());
+    pipeline_ = device.build_pipeline([this, code = spirv(name_), constants](VkPipelineCache cache) {
+      return create_pipeline(code, constants, cache);
+    });
   } catch (...) {
     destroy();
     throw;
@@ -26,7 +30,13 @@ Pipeline::~Pipeline() {
 }
 
 void Pipeline::destroy() {
-  vkDestroyPipeline(device_.handle(), pipeline_, nullptr);
+  if (pipeline_.valid()) {
+    try {
+      vkDestroyPipeline(device_.handle(), pipeline_.get(), nullptr);
+    } catch (...) {
+      // It was never built; handle() has said so to those who asked.
+    }
+  }
   vkDestroyPipelineLayout(device_.handle(), layout_, nullptr);
   vkDestroyDescriptorSetLayout(device_.handle(), set_layout_, nullptr);
 }
@@ -51,16 +61,14 @@ void Pipeline::create_layouts() {
   check(vkCreatePipelineLayout(device_.handle(), &layout, nullptr, &layout_), name_);
 }
 
-void Pipeline::create_pipeline(std::span<const uint32_t> constants) {
-  const auto code = spirv(name_);
+VkPipeline Pipeline::create_pipeline(std::span<const uint32_t> code, const std::vector<uint32_t>& values,
+                                     VkPipelineCache cache) const {
   VkShaderModuleCreateInfo module_info{VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO};
   module_info.codeSize = code.size_bytes();
   module_info.pCode = code.data();
   VkShaderModule module = VK_NULL_HANDLE;
   check(vkCreateShaderModule(device_.handle(), &module_info, nullptr, &module), name_);
 
-  std::vector<uint32_t> values{workgroup_size_};
-  values.insert(values.end(), constants.begin(), constants.end());
   std::vector<VkSpecializationMapEntry> entries;
   for (uint32_t i = 0; i < values.size(); ++i) entries.push_back({i, i * 4, 4});
   const VkSpecializationInfo specialization{static_cast<uint32_t>(entries.size()), entries.data(),
@@ -79,10 +87,11 @@ void Pipeline::create_pipeline(std::span<const uint32_t> constants) {
   if (workgroup_size_ % device_.limits().subgroup_size == 0)
     info.stage.flags = VK_PIPELINE_SHADER_STAGE_CREATE_REQUIRE_FULL_SUBGROUPS_BIT;
   info.layout = layout_;
-  const VkResult result =
-      vkCreateComputePipelines(device_.handle(), VK_NULL_HANDLE, 1, &info, nullptr, &pipeline_);
+  VkPipeline pipeline = VK_NULL_HANDLE;
+  const VkResult result = vkCreateComputePipelines(device_.handle(), cache, 1, &info, nullptr, &pipeline);
   vkDestroyShaderModule(device_.handle(), module, nullptr);
   check(result, name_);
+  return pipeline;
 }
 
 }  // namespace surefield::gpu

@@ -3,6 +3,7 @@
 #include <array>
 #include <span>
 #include <string_view>
+#include <vector>
 
 #include "engine/gpu/buffer.h"
 #include "engine/gpu/glsl_types.h"
@@ -30,7 +31,7 @@ struct PassInfo {
 /// SPIR-V of shaders/**/<name>.comp, embedded at build time. Throws Error(Driver) for an unknown name.
 std::span<const uint32_t> spirv(std::string_view name);
 
-/// The untyped part of Pass: a compute pipeline with its layouts.
+/// The untyped part of Pass: a compute pipeline with its layouts. The pipeline is built in the background.
 class Pipeline {
  public:
   Pipeline(Device& device, const PassInfo& info, uint32_t workgroup_size);
@@ -41,13 +42,15 @@ class Pipeline {
   std::span<const BindingInfo> bindings() const { return bindings_; }
   uint32_t params_bytes() const { return params_bytes_; }
   uint32_t workgroup_size() const { return workgroup_size_; }
-  VkPipeline handle() const { return pipeline_; }
+  /// Waits until the pipeline is there. Throws the Error that kept it from being built.
+  VkPipeline handle() const { return pipeline_.get(); }
   VkPipelineLayout layout() const { return layout_; }
   VkDescriptorSetLayout set_layout() const { return set_layout_; }
 
  private:
   void create_layouts();
-  void create_pipeline(std::span<const uint32_t> constants);
+  VkPipeline create_pipeline(std::span<const uint32_t> code, const std::vector<uint32_t>& values,
+                             VkPipelineCache cache) const;
   void destroy();
 
   Device& device_;
@@ -57,7 +60,7 @@ class Pipeline {
   uint32_t workgroup_size_;
   VkDescriptorSetLayout set_layout_ = VK_NULL_HANDLE;
   VkPipelineLayout layout_ = VK_NULL_HANDLE;
-  VkPipeline pipeline_ = VK_NULL_HANDLE;
+  std::shared_future<VkPipeline> pipeline_;
 };
 
 /// Workgroup size of passes over pixels or Gaussians: as small as holds the widest subgroup, so that little

@@ -42,7 +42,9 @@ struct SplatEngine::Implementation {
         mapper(device),
         densifier(device),
         frames(device),
-        blocks(device) {}
+        blocks(device) {
+    device.finish_pipelines();
+  }
 
   /// Takes the steps of `order`, a few per submission; steps from the first on that found too little room are
   /// taken again.
