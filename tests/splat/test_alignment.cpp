@@ -202,12 +202,12 @@ TEST_CASE("the sums of a Gauss-Newton step agree with differences of the residua
   struct Case {
     int width, height, stride;
   };
-  for (const auto& [width, height, stride] :
+  for (const Case& size :
        {Case{2, 2, 1}, {2, 2, 3}, {7, 5, 1}, {64, 48, 1}, {83, 61, 1}, {83, 61, 3}, {64, 48, 4}}) {
-    CAPTURE(width);
-    CAPTURE(stride);
-    const Pair p = make_pair(width, height);
-    const auto strips = static_cast<uint32_t>(p.points.size() / (stride * glsl::ALIGN_STRIP) + 1);
+    CAPTURE(size.width);
+    CAPTURE(size.stride);
+    const Pair p = make_pair(size.width, size.height);
+    const auto strips = static_cast<uint32_t>(p.points.size() / (size.stride * glsl::ALIGN_STRIP) + 1);
     const auto state = on_device("state", std::vector{state_of(p, some_motion())});
     const auto points = on_device("points", p.points);
     const auto sensor = on_device("sensor", p.sensor);
@@ -219,10 +219,10 @@ TEST_CASE("the sums of a Gauss-Newton step agree with differences of the residua
                        .height = static_cast<uint32_t>(p.height),
                        .level = 0,
                        .strips = strips,
-                       .stride = static_cast<uint32_t>(stride),
+                       .stride = static_cast<uint32_t>(size.stride),
                        .balance = static_cast<float>(kBalance)});
     recorder.submit();
-    const Sums got = add_up(partial.download(strips)), want = reference_sums(p, some_motion(), stride);
+    const Sums got = add_up(partial.download(strips)), want = reference_sums(p, some_motion(), size.stride);
     CHECK(got.pixels_colour == want.pixels_colour);
     CHECK(got.pixels_depth == want.pixels_depth);
     CHECK(got.squares_colour == doctest::Approx(want.squares_colour).epsilon(1e-3));
