@@ -3,33 +3,18 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
-#include <random>
 
 #include "engine/io/files.h"
+#include "tests/io/clouds.h"
 #include "tests/io/support.h"
 
 using namespace surefield;
 using test::contains;
 using test::input_error;
+using test::random_cloud;
 using test::TemporaryFolder;
 
 namespace {
-
-GaussianCloud random_cloud(std::size_t count, int sh_degree) {
-  std::mt19937 random(static_cast<unsigned>(7 + sh_degree));
-  std::uniform_real_distribution<float> value(-3, 3);
-  GaussianCloud cloud;
-  cloud.sh_degree = sh_degree;
-  cloud.resize(count);
-  for (std::size_t i = 0; i < count; ++i) {
-    for (float& x : cloud.means[i]) x = value(random);
-    for (float& x : cloud.log_scales[i]) x = value(random);
-    for (float& x : cloud.rotations[i]) x = value(random);
-    cloud.opacity_logits[i] = value(random);
-  }
-  for (float& x : cloud.sh) x = value(random);
-  return cloud;
-}
 
 bool equal(const GaussianCloud& a, const GaussianCloud& b) {
   return a.sh_degree == b.sh_degree && a.means == b.means && a.log_scales == b.log_scales &&
