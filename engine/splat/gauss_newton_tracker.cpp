@@ -34,6 +34,7 @@ GaussNewtonTracker::Level::Level(gpu::Device& device)
 
 GaussNewtonTracker::GaussNewtonTracker(gpu::Device& device)
     : device_(device),
+      subgroups_(gpu::kWorkgroup / device.limits().subgroup_size),
       sensor_pass_(device, gpu::kWorkgroup),
       rendered_alpha_(device, gpu::kWorkgroup, {.NORMALISED_DEPTH = 0}),
       rendered_normalised_(device, gpu::kWorkgroup, {.NORMALISED_DEPTH = 1}),
@@ -56,7 +57,7 @@ void GaussNewtonTracker::resize(gpu::Recorder& recorder, const ImageSize& size) 
     recorder.reserve(level.points, now.pixels());
     now = {now.width / 2, now.height / 2};
   }
-  recorder.reserve(partial_sums_, size.pixels() / glsl::ALIGN_STRIP + 1);
+  recorder.reserve(partial_sums_, subgroups_ * (size.pixels() / (gpu::kWorkgroup * glsl::ALIGN_STRIP) + 1));
 }
 
 void GaussNewtonTracker::record_halves(gpu::Recorder& recorder, gpu::Array<glsl::vec2> Level::*image) {
@@ -112,8 +113,9 @@ void GaussNewtonTracker::record_step(gpu::Recorder& recorder, const Rasteriser& 
   if (level.size.width < 2 || level.size.height < 2) return;  // nothing to interpolate between
   const uint64_t samples = (level.size.pixels() + kStrides[index] - 1) / kStrides[index];
   const auto strips = static_cast<uint32_t>((samples + glsl::ALIGN_STRIP - 1) / glsl::ALIGN_STRIP);
+  const uint32_t groups = sums_pass_.groups(strips);
   recorder.dispatch(
-      sums_pass_, sums_pass_.groups(strips),
+      sums_pass_, groups,
       {.state = state_, .points = level.points, .sensor = level.sensor, .partial_sums = partial_sums_},
       {.width = level.size.width,
        .height = level.size.height,
@@ -124,7 +126,7 @@ void GaussNewtonTracker::record_step(gpu::Recorder& recorder, const Rasteriser& 
   recorder.dispatch(
       step_pass_, 1,
       {.status = rasteriser.lists.status, .partial_sums = partial_sums_, .state = state_, .camera = camera_},
-      {.count = strips});
+      {.count = groups * subgroups_});
 }
 
 TrackingResult GaussNewtonTracker::track(Rasteriser& rasteriser, TrackingLoss& loss, const GaussianMap& map,

@@ -48,6 +48,7 @@ class GaussNewtonTracker {
                    const TrackingSettings& settings);
 
   gpu::Device& device_;
+  uint32_t subgroups_;  ///< of a workgroup of align_sums: each writes a partial sum
   gpu::Pass<passes::align_sensor> sensor_pass_;
   gpu::Pass<passes::align_rendered> rendered_alpha_;
   gpu::Pass<passes::align_rendered> rendered_normalised_;

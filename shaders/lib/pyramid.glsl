@@ -10,3 +10,12 @@ vec4 intrinsics_at(CameraState c, uint level) {
 vec3 unproject(vec4 intrinsics, vec2 pixel, float depth) {
   return vec3((pixel - intrinsics.zw) / intrinsics.xy, 1) * depth;
 }
+
+/// Column and row of pixel i of an image. By floating-point arithmetic, put right by one where it rounds: integer division
+/// goes lane by lane on a CPU.
+uvec2 pixel_at(uint i, uint width) {
+  uint row = uint(float(i) / float(width));
+  row = row * width > i ? row - 1 : row;
+  row = i - row * width >= width ? row + 1 : row;
+  return uvec2(i - row * width, row);
+}

@@ -16,7 +16,7 @@ struct AlignPoint {
 /// Sums of one Gauss-Newton step over pixels: the normal equations, with the weights in, and for each of the two terms
 /// the weighted squares that its scale follows from.
 struct AlignSums {
-  float normal[21];         // J^T W J, upper triangle by rows; translation first, then rotation
+  float normal[21];         // J^T W J, upper triangle by rows (lib/triangle.glsl); translation first, then rotation
   float slope[6];           // J^T W r
   float squares_colour;
   float squares_depth;

@@ -1,6 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "align_halve.h"
+#include "pyramid.glsl"
 
 const float SAME_SURFACE = 0.05;   // of the depth
 
@@ -8,7 +9,8 @@ const float SAME_SURFACE = 0.05;   // of the depth
 void main() {
   const uint i = gl_GlobalInvocationID.x;
   if (i >= params.width * params.height) return;
-  const uint at = 2 * (i / params.width) * params.source_width + 2 * (i % params.width);
+  const uvec2 pixel = pixel_at(i, params.width);
+  const uint at = 2 * pixel.y * params.source_width + 2 * pixel.x;
   const vec2 four[4] = vec2[](source[at], source[at + 1], source[at + params.source_width],
                               source[at + params.source_width + 1]);
   float intensity = 0, nearest = 0;

@@ -9,7 +9,8 @@ const float SAME_SURFACE = 0.05;   // of the depth, between neighbours
 void main() {
   const uint i = gl_GlobalInvocationID.x;
   if (i >= params.width * params.height) return;
-  const uint x = i % params.width, y = i / params.width;
+  const uvec2 at = pixel_at(i, params.width);
+  const uint x = at.x, y = at.y;
   const vec4 k = intrinsics_at(camera[0], params.level);
   const vec2 pixel = vec2(x, y);
   AlignPoint point = AlignPoint(image[i].x, image[i].y, vec3(0));

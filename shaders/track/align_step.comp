@@ -3,6 +3,7 @@
 #include "align_step.h"
 #include "adam.glsl"
 #include "pose.glsl"
+#include "triangle.glsl"
 
 shared AlignSums tree[gl_WorkGroupSize.x];
 
@@ -22,29 +23,29 @@ AlignSums add(AlignSums a, AlignSums b) {
 /// Solves the normal equations by Cholesky's decomposition; false where they leave a direction open.
 bool solve(AlignSums s, out float x[6]) {
   float L[6][6];
-  uint at = 0;
-  [[unroll]] for (uint row = 0; row < 6; ++row)
-    [[unroll]] for (uint column = row; column < 6; ++column) L[column][row] = s.normal[at++];
   bool solvable = true;
   [[unroll]] for (uint j = 0; j < 6; ++j) {
-    float pivot = L[j][j] * (1 + DAMPING);
-    [[unroll]] for (uint n = 0; n < j; ++n) pivot -= L[j][n] * L[j][n];
-    solvable = solvable && pivot > 1e-7 * L[j][j];
+    const float diagonal = s.normal[triangle_at(j, j)];
+    float pivot = diagonal * (1 + DAMPING);
+    [[unroll]] for (uint n = 0; n < 6; ++n) pivot -= n < j ? L[j][n] * L[j][n] : 0.0;
+    solvable = solvable && pivot > 1e-7 * diagonal;
     L[j][j] = sqrt(max(pivot, 1e-30));
-    [[unroll]] for (uint i = j + 1; i < 6; ++i) {
-      float sum = L[i][j];
-      [[unroll]] for (uint n = 0; n < j; ++n) sum -= L[i][n] * L[j][n];
+    [[unroll]] for (uint i = 0; i < 6; ++i) {
+      if (i <= j) continue;  // decided when the loops are unrolled, as below
+      float sum = s.normal[triangle_at(j, i)];
+      [[unroll]] for (uint n = 0; n < 6; ++n) sum -= n < j ? L[i][n] * L[j][n] : 0.0;
       L[i][j] = sum / L[j][j];
     }
   }
   [[unroll]] for (uint i = 0; i < 6; ++i) {
     float sum = -s.slope[i];
-    [[unroll]] for (uint n = 0; n < i; ++n) sum -= L[i][n] * x[n];
+    [[unroll]] for (uint n = 0; n < 6; ++n) sum -= n < i ? L[i][n] * x[n] : 0.0;
     x[i] = sum / L[i][i];
   }
-  [[unroll]] for (int i = 5; i >= 0; --i) {
+  [[unroll]] for (uint back = 0; back < 6; ++back) {
+    const uint i = 5 - back;
     float sum = x[i];
-    [[unroll]] for (int n = i + 1; n < 6; ++n) sum -= L[n][i] * x[n];
+    [[unroll]] for (uint n = 0; n < 6; ++n) sum -= n > i ? L[n][i] * x[n] : 0.0;
     x[i] = sum / L[i][i];
   }
   float probe = 0;

@@ -2,6 +2,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "align_sums.h"
 #include "pyramid.glsl"
+#include "triangle.glsl"
 
 const float T_FREEDOM = 5;        // of the residuals' t-distributions
 const float DEPTH_GATE = 0.2;     // of the depth: farther apart, the frame shows another surface
@@ -15,25 +16,42 @@ float t_weight(float residual, float variance) {
 void add_residual(inout AlignSums s, float residual, vec3 by_translation, vec3 by_rotation, float weight) {
   const float J[6] = float[](by_translation.x, by_translation.y, by_translation.z,  //
                              by_rotation.x, by_rotation.y, by_rotation.z);
-  uint at = 0;
   [[unroll]] for (uint row = 0; row < 6; ++row) {
-    s.slope[row] += weight * J[row] * residual;
-    [[unroll]] for (uint column = row; column < 6; ++column) s.normal[at++] += weight * J[row] * J[column];
+    const float weighted = weight * J[row];
+    s.slope[row] += weighted * residual;
+    [[unroll]] for (uint column = 0; column < 6; ++column) {
+      if (column < row) continue;  // decided when the loops are unrolled
+      s.normal[triangle_at(row, column)] += weighted * J[column];
+    }
   }
+}
+
+/// Sums over the subgroup, in every lane.
+AlignSums subgroup_sums(AlignSums s) {
+  [[unroll]] for (uint bit = 0; bit < 6; ++bit) {
+    const uint step = 1u << bit;
+    if (step >= gl_SubgroupSize) continue;
+    [[unroll]] for (uint n = 0; n < 21; ++n) s.normal[n] += subgroupShuffleXor(s.normal[n], step);
+    [[unroll]] for (uint n = 0; n < 6; ++n) s.slope[n] += subgroupShuffleXor(s.slope[n], step);
+    s.squares_colour += subgroupShuffleXor(s.squares_colour, step);
+    s.squares_depth += subgroupShuffleXor(s.squares_depth, step);
+    s.pixels_colour += subgroupShuffleXor(s.pixels_colour, step);
+    s.pixels_depth += subgroupShuffleXor(s.pixels_depth, step);
+  }
+  return s;
 }
 
 // One invocation per ALIGN_STRIP of the pixels that take part, `strips` times `stride` apart. A point of the render moves
 // with the camera and is looked up in the sensor's image: its intensity between four pixels, its depth at the nearest
 // one. The residuals are the difference of intensity, and the distance to the point that the sensor measured along the
-// normal.
+// normal. Each subgroup writes one sum.
 void main() {
   const uint strip = gl_GlobalInvocationID.x;
-  if (strip >= params.strips) return;
   const vec4 k = intrinsics_at(state[0].base, params.level);
   const mat3 R = transpose(mat3(state[0].rotation0, state[0].rotation1, state[0].rotation2));
   const vec3 t = state[0].translation;
   const float variance_colour = state[0].variance_colour, variance_depth = state[0].variance_depth;
-  const uint pixels = params.width * params.height;
+  const uint pixels = strip < params.strips ? params.width * params.height : 0;
 
   AlignSums s;
   [[unroll]] for (uint n = 0; n < 21; ++n) s.normal[n] = 0;
@@ -42,8 +60,8 @@ void main() {
 
   for (uint n = 0; n < ALIGN_STRIP; ++n) {
     const uint i = (strip + n * params.strips) * params.stride;
-    const AlignPoint point = points[min(i, pixels - 1)];
-    const vec3 Y = R * unproject(k, vec2(i % params.width, i / params.width), point.depth) + t;
+    const AlignPoint point = points[i < pixels ? i : 0];
+    const vec3 Y = R * unproject(k, vec2(pixel_at(i, params.width)), point.depth) + t;
     const float z = max(Y.z, 1e-3);
     const vec2 seen = k.xy * Y.xy / z + k.zw;
     const vec2 last = vec2(params.width - 1, params.height - 1);
@@ -77,5 +95,6 @@ void main() {
     s.pixels_depth += measured ? 1 : 0;
     add_residual(s, distance, scale * m, scale * cross(S, m), params.balance * w_depth / variance_depth);
   }
-  partial_sums[strip] = s;
+  s = subgroup_sums(s);
+  if (gl_SubgroupInvocationID == 0) partial_sums[gl_WorkGroupID.x * gl_NumSubgroups + gl_SubgroupID] = s;
 }
