@@ -142,7 +142,7 @@ void Rasteriser::record_backward(gpu::Recorder& recorder, GaussianMap& map, cons
                               .visible_count = lists.visible_count,
                               .visible_ids = lists.visible_ids,
                               .instance_offsets = lists.instance_offsets,
-                              .sorted_counts = lists.sorted_counts,
+                              .tile_counts = lists.tile_counts,
                               .instance_gradients = instance_gradients_,
                               .gaussian_gradients = gaussian_gradients,
                               .sh_gradients = sh_gradients,

@@ -28,8 +28,8 @@ TileLists::TileLists(gpu::Device& device, const TileShape& shape)
       splats(device, "splats"),
       visible_count(device, "visible count"),
       visible_ids(device, "visible Gaussians"),
+      tile_counts(device, "tile counts"),
       instance_offsets(device, "instance offsets"),
-      sorted_counts(device, "tile counts by depth"),
       instances(device, "instances"),
       tile_gaussians(device, "Gaussians of tiles"),
       tile_ranges(device, "tile ranges"),
@@ -43,10 +43,12 @@ TileLists::TileLists(gpu::Device& device, const TileShape& shape)
       prepare_(device, device.limits().subgroup_size),
       scan_(device),
       sort_(device),
-      tile_counts_(device, "tile counts"),
       visible_flags_(device, "visible flags"),
       visible_offsets_(device, "visible offsets"),
       depth_keys_(device, "depth keys"),
+      depth_order_(device, "Gaussians by depth"),
+      sorted_counts_(device, "tile counts by depth"),
+      sorted_offsets_(device, "instance offsets by depth"),
       instance_total_(device, "instance total"),
       instance_count_(device, "instance count"),
       tile_keys_(device, "tile keys"),
@@ -80,13 +82,15 @@ void TileLists::reserve_instances(uint32_t capacity) {
 void TileLists::reserve(gpu::Recorder& recorder, const GaussianMap& map, const ImageSize& size) {
   gaussians_ = map.size();
   recorder.reserve(splats, gaussians_);
-  recorder.reserve(tile_counts_, gaussians_);
+  recorder.reserve(tile_counts, gaussians_);
+  recorder.reserve(instance_offsets, gaussians_);
   recorder.reserve(visible_flags_, gaussians_);
   recorder.reserve(visible_offsets_, gaussians_);
   recorder.reserve(depth_keys_, gaussians_);
   recorder.reserve(visible_ids, gaussians_);
-  recorder.reserve(sorted_counts, gaussians_);
-  recorder.reserve(instance_offsets, gaussians_);
+  recorder.reserve(depth_order_, gaussians_);
+  recorder.reserve(sorted_counts_, gaussians_);
+  recorder.reserve(sorted_offsets_, gaussians_);
   recorder.reserve(tile_ranges, static_cast<uint64_t>(tiles_x(size)) * tiles_y(size));
 }
 
@@ -108,18 +112,20 @@ void TileLists::record_projection(gpu::Recorder& recorder, const GaussianMap& ma
                      .opacity_logits = map.opacity_logits.value,
                      .sh = map.sh.value,
                      .splats = splats,
-                     .tile_counts = tile_counts_,
+                     .tile_counts = tile_counts,
                      .visible_flags = visible_flags_},
                     {.count = gaussians_});
   scan_.record(recorder, visible_flags_, visible_offsets_, visible_count, {map.count, gaussians_});
+  scan_.record(recorder, tile_counts, instance_offsets, instance_total_, {map.count, gaussians_});
   recorder.dispatch(compact_, compact_.groups(gaussians_),
                     {.splats = splats,
                      .visible_flags = visible_flags_,
                      .visible_offsets = visible_offsets_,
                      .depth_keys = depth_keys_,
-                     .visible_ids = visible_ids},
+                     .visible_ids = visible_ids,
+                     .depth_order = depth_order_},
                     {.count = gaussians_});
-  sort_.record(recorder, depth_keys_, visible_ids, {visible_count, gaussians_}, 32);
+  sort_.record(recorder, depth_keys_, depth_order_, {visible_count, gaussians_}, 32);
   recorder.dispatch(prepare_, 1, {.element_count = visible_count, .dispatch_args = dispatch_args},
                     {.workgroup_size = gpu::kWorkgroup, .slot = kVisibleArgs});
 }
@@ -128,24 +134,25 @@ void TileLists::record_instances(gpu::Recorder& recorder, const gpu::Array<glsl:
                                  uint32_t tiles) {
   recorder.dispatch_indirect(gather_, dispatch_args, kVisibleArgs,
                              {.visible_count = visible_count,
-                              .visible_ids = visible_ids,
-                              .tile_counts = tile_counts_,
-                              .sorted_counts = sorted_counts},
+                              .depth_order = depth_order_,
+                              .tile_counts = tile_counts,
+                              .sorted_counts = sorted_counts_},
                              {});
-  scan_.record(recorder, sorted_counts, instance_offsets, instance_total_, {visible_count, gaussians_});
+  scan_.record(recorder, sorted_counts_, sorted_offsets_, instance_total_, {visible_count, gaussians_});
   recorder.dispatch_indirect(emit_, dispatch_args, kVisibleArgs,
                              {.camera = camera,
                               .splats = splats,
                               .visible_count = visible_count,
-                              .visible_ids = visible_ids,
-                              .instance_offsets = instance_offsets,
+                              .depth_order = depth_order_,
+                              .sorted_offsets = sorted_offsets_,
                               .instance_total = instance_total_,
                               .tile_keys = tile_keys_,
                               .instances = instances,
                               .instance_owners = instance_owners_,
                               .status = status,
                               .instance_count = instance_count_,
-                              .sorted_counts = sorted_counts},
+                              .sorted_counts = sorted_counts_,
+                              .instance_offsets = instance_offsets},
                              {.capacity = instance_capacity_});
   const auto bits = static_cast<uint32_t>(std::bit_width(tiles - 1));
   sort_.record(recorder, tile_keys_, instances, {instance_count_, instance_capacity_}, bits);

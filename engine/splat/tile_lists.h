@@ -33,8 +33,8 @@ struct ImageSize {
 /// The projected Gaussians of a view and, for every tile, the list of those that touch it, near to far.
 ///
 /// Per Gaussian: project. Then, for those that touch the image: sort by depth; write one instance per touched
-/// tile in that order; sort stably by tile. An instance is named by its place before the second sort, where
-/// the instances of one Gaussian lie side by side.
+/// tile in that order; sort stably by tile. An instance is named by its place in the order of the map,
+/// where the instances of one Gaussian lie side by side.
 class TileLists {
  public:
   TileLists(gpu::Device& device, const TileShape& shape);
@@ -63,9 +63,9 @@ class TileLists {
 
   gpu::Array<glsl::Splat> splats;           ///< per Gaussian of the map
   gpu::Array<glsl::uint> visible_count;     ///< 1
-  gpu::Array<glsl::uint> visible_ids;       ///< per visible Gaussian, near to far: its index in the map
-  gpu::Array<glsl::uint> instance_offsets;  ///< per visible Gaussian: its first instance
-  gpu::Array<glsl::uint> sorted_counts;     ///< per visible Gaussian: its number of instances
+  gpu::Array<glsl::uint> visible_ids;       ///< per visible Gaussian, ascending: its index in the map
+  gpu::Array<glsl::uint> tile_counts;       ///< per Gaussian of the map: its number of instances
+  gpu::Array<glsl::uint> instance_offsets;  ///< per Gaussian of the map: its first instance
   gpu::Array<glsl::uint> instances;         ///< sorted by tile, near to far
   gpu::Array<glsl::uint> tile_gaussians;    ///< in the same order: the instance's Gaussian's index in the map
   gpu::Array<glsl::uvec2> tile_ranges;      ///< per tile: begin and end in `instances`
@@ -93,10 +93,12 @@ class TileLists {
   ExclusiveScan scan_;
   RadixSort sort_;
 
-  gpu::Array<glsl::uint> tile_counts_;
   gpu::Array<glsl::uint> visible_flags_;
   gpu::Array<glsl::uint> visible_offsets_;
   gpu::Array<glsl::uint> depth_keys_;
+  gpu::Array<glsl::uint> depth_order_;     ///< the visible Gaussians, near to far
+  gpu::Array<glsl::uint> sorted_counts_;   ///< in that order: numbers of instances
+  gpu::Array<glsl::uint> sorted_offsets_;  ///< in that order: where the instances are written
   gpu::Array<glsl::uint> instance_total_;
   gpu::Array<glsl::uint> instance_count_;
   gpu::Array<glsl::uint> tile_keys_;

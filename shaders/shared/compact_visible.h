@@ -1,4 +1,4 @@
-// Lists the visible Gaussians, in order of index, with their depth as sort key.
+// Lists the visible Gaussians twice, in order of index: once to stay so, once with their depth as sort key.
 #include "splat_types.h"
 
 #define PASS compact_visible
@@ -8,5 +8,6 @@
   READ(1, uint, visible_flags)             \
   READ(2, uint, visible_offsets)           \
   WRITE(3, uint, depth_keys)               \
-  WRITE(4, uint, visible_ids)
+  WRITE(4, uint, visible_ids)              \
+  WRITE(5, uint, depth_order)
 #include "declare_pass.h"

@@ -8,13 +8,14 @@
   READ(0, CameraState, camera)             \
   READ(1, Splat, splats)                   \
   READ(2, uint, visible_count)             \
-  READ(3, uint, visible_ids)               \
-  READ(4, uint, instance_offsets)          \
+  READ(3, uint, depth_order)               \
+  READ(4, uint, sorted_offsets)            \
   READ(5, uint, instance_total)            \
   WRITE(6, uint, tile_keys)                \
   WRITE(7, uint, instances)                \
   WRITE(8, uint, instance_owners)          \
   UPDATE(9, RenderStatus, status)          \
   WRITE(10, uint, instance_count)          \
-  READ(11, uint, sorted_counts)
+  READ(11, uint, sorted_counts)            \
+  READ(12, uint, instance_offsets)
 #include "declare_pass.h"

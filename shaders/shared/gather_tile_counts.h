@@ -4,7 +4,7 @@
 #define PASS gather_tile_counts
 #define PASS_BINDINGS(READ, WRITE, UPDATE) \
   READ(0, uint, visible_count)             \
-  READ(1, uint, visible_ids)               \
+  READ(1, uint, depth_order)               \
   READ(2, uint, tile_counts)               \
   WRITE(3, uint, sorted_counts)
 #include "declare_pass.h"

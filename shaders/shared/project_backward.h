@@ -14,7 +14,7 @@
   READ(6, uint, visible_count)                   \
   READ(7, uint, visible_ids)                     \
   READ(8, uint, instance_offsets)                \
-  READ(9, uint, sorted_counts)                   \
+  READ(9, uint, tile_counts)                     \
   READ(10, SplatGradient, instance_gradients)    \
   WRITE(11, GaussianGradient, gaussian_gradients) \
   WRITE(12, vec3, sh_gradients)                  \

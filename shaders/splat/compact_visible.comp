@@ -10,4 +10,5 @@ void main() {
   const uint slot = visible_offsets[i];
   depth_keys[slot] = floatBitsToUint(splats[i].depth);
   visible_ids[slot] = i;
+  depth_order[slot] = i;
 }

@@ -6,5 +6,5 @@
 void main() {
   const uint v = gl_GlobalInvocationID.x;
   if (v >= visible_count[0]) return;
-  sorted_counts[v] = tile_counts[visible_ids[v]];
+  sorted_counts[v] = tile_counts[depth_order[v]];
 }

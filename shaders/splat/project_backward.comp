@@ -16,7 +16,7 @@ void main() {
   if (active_lane) {
     const uint id = visible_ids[v];
     SplatGradient sum = SplatGradient(0.0, vec2(0), vec3(0), vec3(0), 0.0);
-    const uint begin = instance_offsets[v], end = begin + sorted_counts[v];
+    const uint begin = instance_offsets[id], end = begin + tile_counts[id];
     for (uint slot = begin; slot < end; ++slot) {
       const SplatGradient g = instance_gradients[slot];
       sum.exponent += g.exponent;
