@@ -1,6 +1,7 @@
 #include "engine/primitives/radix_sort.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace surefield {
 
@@ -38,20 +39,18 @@ uint32_t RadixSort::columns_for(uint32_t capacity) const {
   return histogram_.groups(std::max(wanted, needed)) * shape_.group_size;
 }
 
-void RadixSort::record(gpu::Recorder& recorder, const gpu::Array<glsl::uint>& keys,
-                       const gpu::Array<glsl::uint>& values, const DeviceCount& count, uint32_t bits) {
+void RadixSort::record(gpu::Recorder& recorder, gpu::Array<glsl::uint>& keys, gpu::Array<glsl::uint>& values,
+                       const DeviceCount& count, uint32_t bits) {
   require_room(count, {&keys.buffer(), &values.buffer()});
   recorder.reserve(table_, uint64_t{columns_for(count.capacity)} * glsl::SORT_DIGITS_MAX);
   recorder.reserve(other_keys_, count.capacity);
   recorder.reserve(other_values_, count.capacity);
-  // An even number of passes, so that the result ends where the input was.
-  const uint32_t passes = (bits + 2 * kDigitBitsMax - 1) / (2 * kDigitBitsMax) * 2;
-  const Pairs given{keys, values}, other{other_keys_, other_values_};
   uint32_t shift = 0;
-  for (uint32_t left = passes; left > 0; --left) {
+  for (uint32_t left = (bits + kDigitBitsMax - 1) / kDigitBitsMax; left > 0; --left) {
     const uint32_t digit_bits = (bits - shift + left - 1) / left;
-    const bool forth = left % 2 == 0;
-    record_digit(recorder, forth ? given : other, forth ? other : given, count, {shift, digit_bits});
+    record_digit(recorder, {keys, values}, {other_keys_, other_values_}, count, {shift, digit_bits});
+    std::swap(keys, other_keys_);
+    std::swap(values, other_values_);
     shift += digit_bits;
   }
 }

@@ -29,9 +29,10 @@ class RadixSort {
   RadixSort(gpu::Device& device, const SortShape& shape);
 
   /// Records the sort of the first `count` pairs by the lowest `bits` (0 to 32) bits of their keys,
-  /// ascending, in place. Pairs behind them stay as they are.
-  void record(gpu::Recorder& recorder, const gpu::Array<glsl::uint>& keys,
-              const gpu::Array<glsl::uint>& values, const DeviceCount& count, uint32_t bits);
+  /// ascending. What lies behind them is undefined afterwards: after an odd number of digits, `keys` and
+  /// `values` have changed places with the sort's own arrays.
+  void record(gpu::Recorder& recorder, gpu::Array<glsl::uint>& keys, gpu::Array<glsl::uint>& values,
+              const DeviceCount& count, uint32_t bits);
 
  private:
   struct Pairs {

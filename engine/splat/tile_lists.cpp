@@ -125,7 +125,7 @@ void TileLists::record_projection(gpu::Recorder& recorder, const GaussianMap& ma
                      .visible_ids = visible_ids,
                      .depth_order = depth_order_},
                     {.count = gaussians_});
-  sort_.record(recorder, depth_keys_, depth_order_, {visible_count, gaussians_}, 32);
+  sort_.record(recorder, depth_keys_, depth_order_, {visible_count, gaussians_}, glsl::DEPTH_KEY_BITS);
   recorder.dispatch(prepare_, 1, {.element_count = visible_count, .dispatch_args = dispatch_args},
                     {.workgroup_size = gpu::kWorkgroup, .slot = kVisibleArgs});
 }
