@@ -1,5 +1,9 @@
 // The `surefield` command: reads the command line and runs the subcommand that it names.
+#include <algorithm>
 #include <cstdio>
+#include <cstdlib>
+#include <string>
+#include <thread>
 
 #include "tools/build_info.h"
 #include "tools/command.h"
@@ -48,9 +52,19 @@ std::string explain(const CLI::App& program, const std::string& first, const CLI
   return "there is no subcommand " + first + "; see surefield --help";
 }
 
+/// Lavapipe, Mesa's Vulkan on the CPU, deals a kernel's workgroups out to its threads in one run each and
+/// waits for the slowest. With two threads a core, a core that is free takes over from one that is held up.
+/// Only where the user has not chosen; before any thread starts, since the environment is not guarded.
+void share_out_cpu_work() {
+  constexpr unsigned kMostThreads = 16;  // of lavapipe
+  const unsigned threads = std::clamp(2 * std::thread::hardware_concurrency(), 1u, kMostThreads);
+  setenv("LP_NUM_THREADS", std::to_string(threads).c_str(), 0);
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
+  share_out_cpu_work();
   CLI::App program(kDescription, "surefield");
   surefield::Action action;
   add_commands(program, action);
