@@ -1,5 +1,4 @@
 // The `surefield` command: reads the command line and runs the subcommand that it names.
-#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 #include <string>
@@ -56,9 +55,8 @@ std::string explain(const CLI::App& program, const std::string& first, const CLI
 /// waits for the slowest. With two threads a core, a core that is free takes over from one that is held up.
 /// Only where the user has not chosen; before any thread starts, since the environment is not guarded.
 void share_out_cpu_work() {
-  constexpr unsigned kMostThreads = 16;  // of lavapipe
-  const unsigned threads = std::clamp(2 * std::thread::hardware_concurrency(), 1u, kMostThreads);
-  setenv("LP_NUM_THREADS", std::to_string(threads).c_str(), 0);
+  if (const unsigned cores = std::thread::hardware_concurrency())
+    setenv("LP_NUM_THREADS", std::to_string(2 * cores).c_str(), 0);
 }
 
 }  // namespace

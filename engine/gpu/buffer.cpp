@@ -106,6 +106,12 @@ Buffer& Buffer::operator=(Buffer&& other) noexcept {
   return *this;
 }
 
+void Buffer::exchange_memory(Buffer& other) noexcept {
+  std::swap(bytes_, other.bytes_);
+  std::swap(buffer_, other.buffer_);
+  std::swap(memory_, other.memory_);
+}
+
 void Buffer::release() {
   if (!buffer_) return;
   Allocation allocation{buffer_, memory_};

@@ -30,6 +30,9 @@ class Buffer {
   /// contents move along. Handles taken before are void when it returns true.
   bool reserve(uint64_t bytes, bool keep);
 
+  /// Changes places with another buffer of the same device; each keeps its name.
+  void exchange_memory(Buffer& other) noexcept;
+
   /// Copies host memory into the buffer at byte `offset`, or back; waits for the device.
   void upload(const void* data, uint64_t offset, uint64_t bytes);
   void download(void* data, uint64_t offset, uint64_t bytes) const;
@@ -58,6 +61,9 @@ class Array {
 
   /// Grows to at least `count` entries; see Buffer::reserve.
   bool reserve(uint64_t count, bool keep = false) { return buffer_.reserve(count * sizeof(T), keep); }
+
+  /// See Buffer::exchange_memory.
+  void exchange_memory(Array& other) noexcept { buffer_.exchange_memory(other.buffer_); }
 
   /// Writes `data` from entry `first` on, growing if needed.
   void upload(std::span<const T> data, uint64_t first = 0) {

@@ -1,7 +1,6 @@
 #include "engine/primitives/radix_sort.h"
 
 #include <algorithm>
-#include <utility>
 
 namespace surefield {
 
@@ -49,8 +48,8 @@ void RadixSort::record(gpu::Recorder& recorder, gpu::Array<glsl::uint>& keys, gp
   for (uint32_t left = (bits + kDigitBitsMax - 1) / kDigitBitsMax; left > 0; --left) {
     const uint32_t digit_bits = (bits - shift + left - 1) / left;
     record_digit(recorder, {keys, values}, {other_keys_, other_values_}, count, {shift, digit_bits});
-    std::swap(keys, other_keys_);
-    std::swap(values, other_values_);
+    keys.exchange_memory(other_keys_);
+    values.exchange_memory(other_values_);
     shift += digit_bits;
   }
 }

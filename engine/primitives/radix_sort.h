@@ -30,7 +30,7 @@ class RadixSort {
 
   /// Records the sort of the first `count` pairs by the lowest `bits` (0 to 32) bits of their keys,
   /// ascending. What lies behind them is undefined afterwards: after an odd number of digits, `keys` and
-  /// `values` have changed places with the sort's own arrays.
+  /// `values` have exchanged their memory with the sort's own arrays.
   void record(gpu::Recorder& recorder, gpu::Array<glsl::uint>& keys, gpu::Array<glsl::uint>& values,
               const DeviceCount& count, uint32_t bits);
 

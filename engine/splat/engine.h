@@ -59,9 +59,11 @@ struct TrackingSettings {
 
 /// What tracking found.
 struct TrackingResult {
-  Pose world_to_camera = Pose::Identity();  ///< the pose of the lowest loss
-  double loss = 0;                          ///< that loss
-  double valid_fraction = 0;                ///< pixels in the depth mask, of all with sensor depth
+  /// The pose of the lowest loss; by Gauss-Newton, or one that the alignment from there has reached, less
+  /// than half a pixel on (docs/method.md, "Second-order tracking").
+  Pose world_to_camera = Pose::Identity();
+  double loss = 0;            ///< the lowest
+  double valid_fraction = 0;  ///< pixels in the depth mask, of all with sensor depth
   int iterations = 0;
   double milliseconds = 0;
 };

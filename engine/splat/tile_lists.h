@@ -66,7 +66,7 @@ class TileLists {
   gpu::Array<glsl::uint> visible_ids;       ///< per visible Gaussian, ascending: its index in the map
   gpu::Array<glsl::uint> tile_counts;       ///< per Gaussian of the map: its number of instances
   gpu::Array<glsl::uint> instance_offsets;  ///< per Gaussian of the map: its first instance
-  gpu::Array<glsl::uint> instances;         ///< sorted by tile, near to far
+  gpu::Array<glsl::uint> instances;         ///< their names, sorted by tile, near to far
   gpu::Array<glsl::uint> tile_gaussians;    ///< in the same order: the instance's Gaussian's index in the map
   gpu::Array<glsl::uvec2> tile_ranges;      ///< per tile: begin and end in `instances`
   gpu::Array<glsl::RenderStatus> status;    ///< 1
@@ -102,7 +102,7 @@ class TileLists {
   gpu::Array<glsl::uint> instance_total_;
   gpu::Array<glsl::uint> instance_count_;
   gpu::Array<glsl::uint> tile_keys_;
-  gpu::Array<glsl::uint> instance_owners_;  ///< per instance, before sorting: its Gaussian's index in the map
+  gpu::Array<glsl::uint> instance_owners_;  ///< per instance, by name: its Gaussian's index in the map
 };
 
 }  // namespace surefield

@@ -4,9 +4,8 @@
 #include "quaternion.glsl"
 #include "projection.glsl"
 
-/// The bits of positive floats sort like the floats. Of those of a depth beyond the near plane the first few are always
-/// the same, and the last ones tell apart less than a hundredth of a millimetre at a metre: without them a sort is one
-/// digit shorter.
+/// The bits of positive floats sort like the floats. Counted from those of the near plane they need fewer digits, and the
+/// last ones tell apart less than a hundredth of a millimetre at a metre: without them a sort is one digit shorter.
 uint depth_key(float depth) {
   const uint DROPPED = 6;
   const uint first = floatBitsToUint(NEAR_PLANE) >> DROPPED;

@@ -111,18 +111,23 @@ TEST_CASE("radix sort binds through descriptor pools as well") {
 
 TEST_CASE("radix sort grows between sorts of one recording") {
   gpu::Device& device = testing::device();
+  uint32_t bits = 32;
+  SUBCASE("an even number of digits") {}
+  SUBCASE("an odd number of digits") {
+    bits = 24;
+  }
   RadixSort sort(device);
   gpu::Recorder recorder(device);
   std::vector<std::vector<uint32_t>> inputs;
   std::vector<gpu::Array<glsl::uint>> keys, values;
   std::vector<testing::HeldCount> counts;
   for (uint32_t size : {100u, 5000u, 200u, 60000u}) {
-    inputs.push_back(testing::random_words(size, size));
+    inputs.push_back(testing::random_words(size, size, bits));
     keys.push_back(testing::upload(device, "keys", inputs.back()));
     values.push_back(testing::upload(device, "values", inputs.back()));
     counts.emplace_back(device, size, size);
   }
-  for (std::size_t i = 0; i < inputs.size(); ++i) sort.record(recorder, keys[i], values[i], counts[i], 32);
+  for (std::size_t i = 0; i < inputs.size(); ++i) sort.record(recorder, keys[i], values[i], counts[i], bits);
   recorder.submit();
   for (std::size_t i = 0; i < inputs.size(); ++i) {
     std::sort(inputs[i].begin(), inputs[i].end());

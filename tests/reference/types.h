@@ -43,7 +43,8 @@ struct Settings {
   double minimum_transmittance = 1e-4;  ///< blending stops before the Gaussian which would take T below
   double median_transmittance = 0.5;    ///< the median Gaussian is the first which takes T below
   double edge_margin = 1e-4;            ///< relative, on alpha, T, weights, tangents and colours
-  double depth_edge_margin = 1e-5;      ///< relative, on z: depth order and near plane
+  /// Relative, on z: depth order, which the device tells to 2^-17, and near plane.
+  double depth_edge_margin = 2e-5;
 };
 
 /// What is rendered, row-major, width * height entries each (colour: 3 a pixel, RGB). Definitions as in
