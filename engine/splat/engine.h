@@ -59,11 +59,9 @@ struct TrackingSettings {
 
 /// What tracking found.
 struct TrackingResult {
-  /// The pose of the lowest loss; by Gauss-Newton, or one that the alignment from there has reached, less
-  /// than half a pixel on (docs/method.md, "Second-order tracking").
-  Pose world_to_camera = Pose::Identity();
-  double loss = 0;            ///< the lowest
-  double valid_fraction = 0;  ///< pixels in the depth mask, of all with sensor depth
+  Pose world_to_camera = Pose::Identity();  ///< the pose of the lowest loss
+  double loss = 0;                          ///< that loss
+  double valid_fraction = 0;                ///< pixels in the depth mask, of all with sensor depth
   int iterations = 0;
   double milliseconds = 0;
 };

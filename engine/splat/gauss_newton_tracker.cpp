@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cstring>
 #include <limits>
 
 namespace surefield {
@@ -17,9 +16,6 @@ constexpr int kLaterSteps = 4;
 constexpr uint32_t kStrides[] = {3, 1, 1};
 // Tracking ends when an alignment has moved the camera by less, radians and metres.
 constexpr double kStill = 3e-4;
-// When the last alignment has moved the image by fewer pixels, seen at a metre, its pose is taken without
-// another render: the loss where it began says enough about where it ended.
-constexpr double kTrusted = 0.5;
 // Where the scales of the residuals start: intensity (0 to 1), and distance over depth.
 constexpr float kFirstScaleColour = 0.1f;
 constexpr float kFirstScaleDepth = 0.02f;
@@ -29,12 +25,6 @@ double motion_of(const glsl::AlignState& state) {
   const glsl::vec3 &t = state.translation, &x = state.rotation0, &y = state.rotation1, &z = state.rotation2;
   const Eigen::Vector3d turn(z.y - y.z, x.z - z.x, y.x - x.y);
   return std::max(turn.norm() / 2, Eigen::Vector3d(t.x, t.y, t.z).norm());
-}
-
-/// Whether the pose reached needs no render of its own: the last one was the best so far, and it is close by.
-bool can_trust(const glsl::AlignState& state) {
-  const bool best = std::memcmp(&state.base, &state.best_camera, sizeof(glsl::CameraState)) == 0;
-  return best && state.base.fx * motion_of(state) < kTrusted;
 }
 
 }  // namespace
@@ -174,10 +164,6 @@ TrackingResult GaussNewtonTracker::track(Rasteriser& rasteriser, TrackingLoss& l
     ++render;
     if (last) break;
     result.iterations = render;
-    if (render == settings.renders && can_trust(state)) {
-      state.best_camera = camera_.download(1)[0];
-      break;
-    }
   }
 
   result.world_to_camera = pose_of(state.best_camera);

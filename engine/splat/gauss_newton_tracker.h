@@ -16,8 +16,8 @@ namespace surefield {
 /// Finds the pose of a frame in a fixed map by Gauss-Newton (docs/method.md, "Second-order tracking"). The
 /// map is rendered at the pose so far; the render's points are aligned to the frame, coarse to fine, by
 /// intensity and by their distance along the normal, with the weights of t-distributions; then the map is
-/// rendered again. A few renders take the place of dozens. Everything but the decision to stop, and whether
-/// to take a last pose without a render, is on the device.
+/// rendered again. A few renders take the place of dozens. Everything but the decision to stop is on the
+/// device.
 class GaussNewtonTracker {
  public:
   explicit GaussNewtonTracker(gpu::Device& device);

@@ -80,28 +80,6 @@ TEST_CASE("Gauss-Newton recovers a pose from near and far, with either depth") {
     }
 }
 
-TEST_CASE("Gauss-Newton takes the pose that its last alignment reached, unless that is far away") {
-  Track t;
-  t.map.assign(wall(160, 120, 90));
-  const SensorFrame frame = frame_of(t.device, t.rasteriser, t.map, wall_camera());
-  const TrackingSettings once{.renders = 1, .minimum_opacity = 0.9};
-  for (const double metres : {0.001, 0.05}) {
-    CAPTURE(metres);
-    const Camera start = moved(metres, 0);
-    const TrackingResult result = t.run(GaussNewtonTracker(t.device), frame, start, once);
-    CHECK(result.iterations == 1);
-    CHECK(error_of(result, wall_camera()).metres < 0.5 * metres);
-    // Without a render of its own, a near pose has the loss of the start; a far one has its own, which is
-    // lower.
-    const TrackingResult stay =
-        t.run(AdamTracker(t.device), frame, start, {.iterations = 1, .minimum_opacity = 0.9});
-    if (metres < 0.01)
-      CHECK(result.loss == doctest::Approx(stay.loss).epsilon(1e-3));
-    else
-      CHECK(result.loss < 0.9 * stay.loss);
-  }
-}
-
 TEST_CASE("tracking against an empty map, or in a tiny image, ends with the starting pose") {
   Track t;
   GaussianMap walls(t.device);
