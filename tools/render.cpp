@@ -9,6 +9,7 @@
 #include "engine/io/error.h"
 #include "engine/io/images.h"
 #include "engine/io/map_file.h"
+#include "engine/report/colour_maps.h"
 #include "engine/splat/engine.h"
 #include "tools/command.h"
 
@@ -20,9 +21,14 @@ constexpr const char* kRenderExamples =
     "Writes colour.png and, as uncompressed 32-bit float TIFF: colour, opacity, depth (blended), "
     "depth_normalised\n"
     "(divided by the opacity), depth_median (0 where there is none), uncertainty (0 without sensor depth),\n"
-    "dominator (index of the Gaussian of the largest weight, -1 where there is none; exact up to 16777216) "
-    "and\n"
-    "dominator_weight. Depths are in metres.\n"
+    "dominator (index of the Gaussian of the largest weight, -1 where there is none; exact up to 16777216),\n"
+    "dominator_weight and gaussian_uncertainty (what the map knows of its Gaussians' errors of depth: the "
+    "mean "
+    "of\n"
+    "those seen, in square metres). Depths are in metres. gaussian_uncertainty.png shows the root of that "
+    "from "
+    "0\n"
+    "(black) over 10 cm (red) to 20 cm (pale yellow); grey is where there is nothing.\n"
     "The camera is JSON: width, height, fx, fy, cx, cy (pixels, centres at integers) and world_to_camera "
     "(four\n"
     "rows of four numbers).\n"
@@ -31,6 +37,8 @@ constexpr const char* kRenderExamples =
     "  surefield render --map out/demo/map.ply --camera camera.json --out out/view\n"
     "  surefield render --map map.ply --camera camera.json --out view --sensor-depth depth.png --depth-scale "
     "5000\n";
+
+constexpr double kPaleYellow = 0.2;  // metres, the end of the scale of gaussian_uncertainty.png
 
 struct RenderOptions {
   std::string map;
@@ -65,6 +73,31 @@ std::vector<float> read_sensor_depth(const RenderOptions& options, const Intrins
   return {depth.begin<float>(), depth.end<float>()};
 }
 
+/// The Gaussians with their uncertainty in the place of their colour.
+GaussianCloud coloured_by_uncertainty(GaussianCloud cloud) {
+  constexpr float kShBase = 0.28209479177387814f;  // the SH basis function of degree 0
+  cloud.sh_degree = 0;
+  cloud.sh.clear();
+  for (float uncertainty : cloud.uncertainty)
+    cloud.sh.insert(cloud.sh.end(), 3, (uncertainty - 0.5f) / kShBase);
+  return cloud;
+}
+
+/// `images` shows a map coloured_by_uncertainty().
+void write_gaussian_uncertainty(const std::filesystem::path& folder, const RenderImages& images) {
+  cv::Mat uncertainty(images.height, images.width, CV_32FC1), root;
+  cv::Mat seen(images.height, images.width, CV_8UC1);
+  for (int i = 0; i < images.height * images.width; ++i) {
+    const float opacity = images.opacity[i];
+    seen.data[i] = opacity > 0;
+    uncertainty.ptr<float>()[i] = opacity > 0 ? std::max(0.0f, images.colour[3 * i] / opacity) : 0.0f;
+  }
+  write_tiff(folder / "gaussian_uncertainty.tiff", uncertainty);
+  cv::sqrt(uncertainty, root);
+  write_png(folder / "gaussian_uncertainty.png",
+            apply_colours(root, seen, {.map = ColourMap::Error, .high = kPaleYellow}));
+}
+
 void write_images(const std::filesystem::path& folder, RenderImages& images) {
   const cv::Mat colour(images.height, images.width, CV_32FC3, images.colour.data());
   write_png(folder / "colour.png", colour);
@@ -95,6 +128,8 @@ int render(const RenderOptions& options) {
   RenderImages images = sensor_depth.empty() ? engine.render(camera)
                                              : engine.render(camera, std::span<const float>(sensor_depth));
   write_images(options.out, images);
+  engine.assign(coloured_by_uncertainty(cloud));
+  write_gaussian_uncertainty(options.out, engine.render(camera));
   return kSuccess;
 }
 

@@ -24,6 +24,7 @@ nlohmann::ordered_json frame_json(const FrameReport& frame) {
           {"mapping_iterations", frame.mapping_iterations},
           {"mapping_ms", frame.mapping_ms},
           {"gaussians", frame.gaussians},
+          {"uncertain_gaussians", frame.uncertain_gaussians},
           {"device_gaussians", frame.device_gaussians},
           {"device_mb", static_cast<double>(frame.device_bytes) / kMegabyte}};
 }

@@ -1,4 +1,5 @@
 #include <cmath>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -16,6 +17,7 @@ struct GaussianLayout {
   int sh_degree = 0;
   std::vector<std::size_t>
       columns;  ///< mean, log scale, rotation, opacity, then SH coefficient by coefficient
+  std::optional<std::size_t> uncertainty;
 };
 
 std::size_t column(const std::filesystem::path& file, const PlyElement& vertices, const std::string& name) {
@@ -47,14 +49,16 @@ GaussianLayout find_layout(const std::filesystem::path& file, const PlyElement& 
   for (int k = 0; k < rest; ++k) {
     for (int channel = 0; channel < 3; ++channel) add("f_rest_" + std::to_string(channel * rest + k));
   }
+  layout.uncertainty = vertices.find("uncertainty");
   return layout;
 }
 
 /// Appends one Gaussian; false when one of its values cannot be used.
-bool append(const std::vector<float>& values, GaussianCloud& cloud) {
+bool append(const std::vector<float>& values, float uncertainty, GaussianCloud& cloud) {
   for (float value : values) {
     if (!std::isfinite(value)) return false;
   }
+  if (!std::isfinite(uncertainty)) return false;
   const Eigen::Vector4f rotation(values[6], values[7], values[8], values[9]);
   if (rotation.isZero(0)) return false;
   cloud.means.emplace_back(values[0], values[1], values[2]);
@@ -62,6 +66,7 @@ bool append(const std::vector<float>& values, GaussianCloud& cloud) {
   cloud.rotations.push_back(rotation);
   cloud.opacity_logits.push_back(values[10]);
   cloud.sh.insert(cloud.sh.end(), values.begin() + 11, values.end());
+  cloud.uncertainty.push_back(uncertainty);
   return true;
 }
 
@@ -81,7 +86,8 @@ PlyCloud read_ply(const std::filesystem::path& file) {
     for (std::size_t k = 0; k < values.size(); ++k) {
       values[k] = static_cast<float>(record.values[layout.columns[k]]);
     }
-    if (!append(values, result.cloud)) ++result.dropped;
+    const double uncertainty = layout.uncertainty ? record.values[*layout.uncertainty] : 0;
+    if (!append(values, static_cast<float>(uncertainty), result.cloud)) ++result.dropped;
   }
   return result;
 }

@@ -24,6 +24,7 @@ void write_header(std::ostream& stream, const GaussianCloud& cloud) {
   property("opacity");
   properties("scale_", 3);
   properties("rot_", 4);
+  property("uncertainty");  // not part of the usual layout; other programs go past it
   stream << "end_header\n";
 }
 
@@ -41,6 +42,7 @@ void fill_record(const GaussianCloud& cloud, std::size_t i, std::vector<float>& 
   record.push_back(cloud.opacity_logits[i]);
   record.insert(record.end(), cloud.log_scales[i].begin(), cloud.log_scales[i].end());
   record.insert(record.end(), cloud.rotations[i].begin(), cloud.rotations[i].end());
+  record.push_back(cloud.uncertainty[i]);
 }
 
 }  // namespace

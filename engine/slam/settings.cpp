@@ -33,6 +33,8 @@ void bind_tracking(ConfigSchema& schema, TrackingSettings& tracking) {
              "pixels take part where the rendered opacity is above");
   schema.add("tracking.outlier_factor", &tracking.outlier_factor, kFactor,
              "pixels take part where their difference is below this many times the median");
+  schema.add("tracking.uncertainty_above", &tracking.uncertainty_above, kFactor,
+             "Gaussians of a larger uncertainty take no part, square metres; 0: all do");
   schema.add("tracking.depth", &tracking.depth,
              Choices<DepthKind>{{"alpha", DepthKind::Alpha}, {"normalised", DepthKind::Normalised}},
              "rendered depth that is compared: blended as it is, or divided by the opacity");
@@ -55,6 +57,11 @@ void bind_mapping(ConfigSchema& schema, MappingSettings& mapping) {
              "weight of the penalty on elongated Gaussians");
   schema.add("mapping.weight_variance", &mapping.weight_variance, kWeight,
              "weight of the depth variance along a ray (the uncertainty)");
+  schema.add("mapping.uncertainty_above", &mapping.uncertainty_above, kFactor,
+             "tau, Gaussians of a larger uncertainty (mean squared error of the depth where they dominate, "
+             "square metres) lose their opacity; 0: none is judged");
+  schema.add("mapping.uncertain_opacity", &mapping.uncertain_opacity, Range{0.0001, 0.99},
+             "the opacity that is left to them");
   schema.add("mapping.depth", &mapping.depth,
              Choices<DepthKind>{{"alpha", DepthKind::Alpha}, {"normalised", DepthKind::Normalised}},
              "rendered depth that is compared: blended as it is, or divided by the opacity");

@@ -90,6 +90,7 @@ struct Slam::Implementation {
   void add_keyframe(const Frame& frame, FrameHandle handle, const Pose& world_to_camera);
   void map_window(FrameReport& report);
   void optimise(const std::vector<int>& order, const std::vector<int>& refined, FrameReport& report);
+  void judge(const std::vector<int>& members, FrameReport& report);
   void densify();
 };
 
@@ -237,6 +238,7 @@ void Slam::Implementation::map_window(FrameReport& report) {
     if (member != window.fixed) refined.push_back(member);
   const auto middle = order.begin() + static_cast<std::ptrdiff_t>(order.size() / 2);
   optimise({order.begin(), middle}, refined, report);
+  judge(window.members, report);
   densify();
   optimise({middle, order.end()}, refined, report);
   report.world_to_camera = keyframes.back().camera.world_to_camera;
@@ -257,6 +259,15 @@ void Slam::Implementation::optimise(const std::vector<int>& order, const std::ve
   const MappingResult result = engine.optimise(views, steps, settings.mapping, extent);
   for (const auto& [keyframe, view] : view_of_keyframe) keyframes[keyframe].camera = views[view].camera;
   report.mapping_iterations += result.iterations;
+  report.mapping_ms += result.milliseconds;
+}
+
+/// Takes the opacity from Gaussians that are uncertain over the window's keyframes.
+void Slam::Implementation::judge(const std::vector<int>& members, FrameReport& report) {
+  std::vector<MappingView> views;
+  for (int member : members) views.push_back({keyframes[member].frame, keyframes[member].camera, false});
+  const JudgeResult result = engine.judge(views, settings.mapping);
+  report.uncertain_gaussians = result.uncertain;
   report.mapping_ms += result.milliseconds;
 }
 

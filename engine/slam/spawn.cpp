@@ -67,6 +67,7 @@ GaussianCloud spawn_gaussians(const Frame& frame, const Camera& camera, const Re
       cloud.log_scales.push_back(Eigen::Vector3f::Constant(static_cast<float>(std::log(radius))));
       cloud.rotations.emplace_back(1.0f, 0.0f, 0.0f, 0.0f);
       cloud.opacity_logits.push_back(logit);
+      cloud.uncertainty.push_back(0.0f);
       const cv::Vec3b& rgb = frame.colour.at<cv::Vec3b>(v, u);
       for (int c = 0; c < 3; ++c) cloud.sh.push_back((static_cast<float>(rgb[c]) / 255 - 0.5f) / kShBase);
     }

@@ -9,6 +9,7 @@
 #include "engine/splat/gauss_newton_tracker.h"
 #include "engine/splat/map_blocks.h"
 #include "engine/splat/mapper.h"
+#include "engine/splat/uncertainty.h"
 
 namespace surefield {
 
@@ -17,6 +18,10 @@ namespace {
 // Mapping steps per submission: a driver may end a submission that runs for seconds.
 constexpr std::size_t kMappingBatch = 5;
 static_assert(kMappingBatch < FrameStore::kPlaces, "a submission's frames are on the device together");
+
+double milliseconds_since(std::chrono::steady_clock::time_point begin) {
+  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
+}
 
 }  // namespace
 
@@ -28,6 +33,7 @@ struct SplatEngine::Implementation {
   AdamTracker adam_tracker;
   GaussNewtonTracker gauss_newton_tracker;
   Mapper mapper;
+  UncertaintyJudge judge;
   Densifier densifier;
   FrameStore frames;
   MapBlocks blocks;
@@ -40,6 +46,7 @@ struct SplatEngine::Implementation {
         adam_tracker(device),
         gauss_newton_tracker(device),
         mapper(device),
+        judge(device),
         densifier(device),
         frames(device),
         blocks(device) {
@@ -154,9 +161,26 @@ MappingResult SplatEngine::optimise(std::span<MappingView> views, std::span<cons
   result.iterations = static_cast<int>(order.size());
   if (!order.empty())
     result.loss = i.mapper.read_loss(i.frames.on_device(views[order.back()].frame), settings);
-  result.milliseconds =
-      std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
+  result.milliseconds = milliseconds_since(begin);
   return result;
+}
+
+JudgeResult SplatEngine::judge(std::span<const MappingView> views, const MappingSettings& settings) {
+  if (!(settings.uncertainty_above > 0)) return {};
+  const auto begin = std::chrono::steady_clock::now();
+  Implementation& i = *implementation_;
+  gpu::Recorder recorder(i.device);
+  i.judge.record_begin(recorder, i.map);
+  for (const MappingView& view : views) {
+    const CameraVariable camera(i.device, view.camera);
+    do {
+      i.judge.record_view(recorder, i.rasteriser, i.map, i.frames.on_device(view.frame), camera.camera);
+      recorder.submit();
+    } while (i.rasteriser.lists.settle() == 0);
+  }
+  i.judge.record_verdict(recorder, i.map, settings);
+  recorder.submit();
+  return {.uncertain = i.judge.read_uncertain(), .milliseconds = milliseconds_since(begin)};
 }
 
 DensifyResult SplatEngine::densify(const DensifySettings& settings) {

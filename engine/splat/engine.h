@@ -52,6 +52,7 @@ struct TrackingSettings {
   double weight_depth = 0.6;          ///< lambda_2
   double minimum_opacity = 0.99;      ///< pixels take part where O is above
   double outlier_factor = 10;         ///< and where the residual is below this many times the median
+  double uncertainty_above = 0.025;   ///< tau, m^2: more uncertain Gaussians take no part; 0: all do
   DepthKind depth = DepthKind::Normalised;
   PoseGradientKind pose_gradient = PoseGradientKind::Full;
   double stop_below = 2e-5;  ///< stop when steps of all pose numbers have become smaller (radians, metres)
@@ -75,8 +76,10 @@ struct MappingSettings {
   double weight_isotropy = 0.1;
   double weight_variance = 0.5;
   DepthKind depth = DepthKind::Alpha;
-  double rate_mean = 3e-4;       ///< times extent, metres
-  double rate_log_scale = 1e-4;  ///< times extent
+  double uncertainty_above = 0.025;  ///< tau, m^2: Gaussians above lose their opacity; 0: none is judged
+  double uncertain_opacity = 0.01;   ///< what is left of it
+  double rate_mean = 3e-4;           ///< times extent, metres
+  double rate_log_scale = 1e-4;      ///< times extent
   double rate_rotation = 1e-3;
   double rate_opacity = 5e-2;
   double rate_colour = 2.5e-3;            ///< SH of degree 0; the higher ones move at a twentieth of it
@@ -96,6 +99,12 @@ struct MappingView {
 struct MappingResult {
   double loss = 0;  ///< of the last step, without L_iso
   int iterations = 0;
+  double milliseconds = 0;
+};
+
+/// What judging found.
+struct JudgeResult {
+  uint32_t uncertain = 0;  ///< Gaussians on the device whose uncertainty is above the limit
   double milliseconds = 0;
 };
 
@@ -173,6 +182,10 @@ class SplatEngine {
   /// that ask for it. `extent` (metres) scales the rates of means and scales.
   MappingResult optimise(std::span<MappingView> views, std::span<const int> order,
                          const MappingSettings& settings, double extent);
+
+  /// Computes the uncertainty of the Gaussians that dominate pixels of the views (paper eq. 13) and lowers
+  /// the opacity of the uncertain ones. Does nothing where `settings` says that none is judged.
+  JudgeResult judge(std::span<const MappingView> views, const MappingSettings& settings);
 
   /// Splits, clones and removes; the statistics that decide are those gathered since the last call.
   DensifyResult densify(const DensifySettings& settings);

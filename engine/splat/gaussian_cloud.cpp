@@ -4,6 +4,7 @@ namespace surefield {
 
 bool GaussianCloud::is_consistent() const {
   return log_scales.size() == size() && rotations.size() == size() && opacity_logits.size() == size() &&
+         uncertainty.size() == size() &&
          sh.size() == size() * static_cast<std::size_t>(sh_coefficients(sh_degree)) * 3;
 }
 
@@ -13,6 +14,7 @@ void GaussianCloud::resize(std::size_t count) {
   rotations.resize(count, Eigen::Vector4f(1, 0, 0, 0));
   opacity_logits.resize(count, 0.0f);
   sh.resize(count * static_cast<std::size_t>(sh_coefficients(sh_degree)) * 3, 0.0f);
+  uncertainty.resize(count, 0.0f);
 }
 
 }  // namespace surefield

@@ -22,6 +22,8 @@ struct GaussianCloud {
   /// Spherical harmonics, sh_coefficients(sh_degree) x RGB per Gaussian:
   /// sh[(i * sh_coefficients(sh_degree) + coefficient) * 3 + channel].
   std::vector<float> sh;
+  /// Mean squared error of the depth where the Gaussian dominates, m^2 (paper eq. 13); 0 where not known.
+  std::vector<float> uncertainty;
 
   std::size_t size() const { return means.size(); }
 

@@ -47,6 +47,7 @@ GaussianMap::GaussianMap(gpu::Device& device)
       rotations(device, "rotations"),
       opacity_logits(device, "opacity logits"),
       sh(device, "spherical harmonics"),
+      uncertainty(device, "uncertainties"),
       steps(device, "Adam steps"),
       densification(device, "densification statistics"),
       count(device, "Gaussian count"),
@@ -61,6 +62,7 @@ void GaussianMap::reserve(uint32_t capacity) {
   reserve_parameter(rotations, blocks);
   reserve_parameter(opacity_logits, blocks);
   reserve_parameter(sh, blocks * sh_coefficients(sh_degree_));
+  uncertainty.reserve(blocks, true);
   steps.reserve(blocks, true);
   densification.reserve(blocks, true);
 }
@@ -73,6 +75,7 @@ void GaussianMap::assign(const GaussianCloud& cloud) {
 
 void GaussianMap::append(const GaussianCloud& cloud) {
   if (cloud.sh_degree != sh_degree_) throw std::invalid_argument("the clouds have different SH degrees");
+  if (!cloud.is_consistent()) throw std::invalid_argument("the arrays of the cloud differ in length");
   const uint32_t first = size_;
   reserve(first + static_cast<uint32_t>(cloud.size()));
   write(cloud, first);
@@ -95,6 +98,7 @@ void GaussianMap::write(const GaussianCloud& cloud, uint32_t first) {
   write_parameter(recorder, sh,
                   std::span(reinterpret_cast<const vec3*>(cloud.sh.data()), cloud.size() * coefficients),
                   first * coefficients);
+  uncertainty.upload(std::span(cloud.uncertainty), first);
   clear(recorder, steps, first, cloud.size());
   clear(recorder, densification, first, cloud.size());
   recorder.submit();
@@ -109,6 +113,7 @@ GaussianCloud GaussianMap::download() const {
   rotations.value.buffer().download(cloud.rotations.data(), 0, size_ * sizeof(vec4));
   opacity_logits.value.buffer().download(cloud.opacity_logits.data(), 0, size_ * sizeof(float));
   sh.value.buffer().download(cloud.sh.data(), 0, cloud.sh.size() * sizeof(float));
+  uncertainty.buffer().download(cloud.uncertainty.data(), 0, size_ * sizeof(float));
   return cloud;
 }
 
@@ -118,7 +123,7 @@ uint64_t GaussianMap::parameter_bytes() const {
 
 uint32_t GaussianMap::record_words() const {
   const auto parameters = static_cast<uint32_t>(parameter_bytes() / sizeof(uint32_t));
-  return 3 * parameters + 3;  // each with two moments; steps and statistics
+  return 3 * parameters + 4;  // each with two moments; uncertainty, steps and statistics
 }
 
 std::vector<uint32_t> GaussianMap::read_records(uint32_t first) {
@@ -167,6 +172,7 @@ void append_to(GaussianCloud& cloud, std::span<const uint32_t> records, uint32_t
     take(&cloud.rotations[before + i], 4);
     take(&cloud.opacity_logits[before + i], 1);
     take(&cloud.sh[(before + i) * sh_floats], sh_floats);
+    take(&cloud.uncertainty[before + i], 1);
   }
 }
 

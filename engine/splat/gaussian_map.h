@@ -32,7 +32,8 @@ class GaussianMap {
   /// Replaces the map. Moments and statistics start at zero.
   void assign(const GaussianCloud& cloud);
   /// Adds Gaussians at the end; their moments and statistics start at zero. Throws std::invalid_argument when
-  /// the degree of the spherical harmonics differs from that of a map that is not empty.
+  /// the degree of the spherical harmonics differs from that of a map that is not empty, or the arrays of the
+  /// cloud differ in length.
   void append(const GaussianCloud& cloud);
   /// Declares how many Gaussians the arrays hold, after a pass has rebuilt them.
   void set_size(uint32_t size);
@@ -43,7 +44,8 @@ class GaussianMap {
   uint64_t parameter_bytes() const;
 
   /// Calls visit(array, words, state) for every array that describes Gaussians: `words` is how many 32-bit
-  /// words of it belong to one; `state` tells moments and statistics from the parameters, which come first.
+  /// words of it belong to one; `state` tells what a newborn Gaussian has none of (its uncertainty, moments
+  /// and statistics) from the parameters, which come first.
   template <class Visit>
   void for_each_array(Visit&& visit);
 
@@ -59,6 +61,7 @@ class GaussianMap {
   Parameter<glsl::vec4> rotations;
   Parameter<float> opacity_logits;
   Parameter<glsl::vec3> sh;              ///< sh_coefficients(sh_degree()) per Gaussian
+  gpu::Array<float> uncertainty;         ///< as in GaussianCloud; that of a newborn Gaussian is 0
   gpu::Array<glsl::uint> steps;          ///< Adam steps taken by each Gaussian
   gpu::Array<glsl::vec2> densification;  ///< sum of the norms of the screen gradient, times seen
   gpu::Array<glsl::uint> count;          ///< size(), for passes that read it on the device
@@ -72,7 +75,7 @@ class GaussianMap {
   int sh_degree_ = 0;
 };
 
-/// Adds the parameters of records of GaussianMap to a cloud of the same SH degree.
+/// Adds the parameters and uncertainties of records of GaussianMap to a cloud of the same SH degree.
 void append_to(GaussianCloud& cloud, std::span<const uint32_t> records, uint32_t record_words);
 
 template <class Visit>
@@ -83,6 +86,7 @@ void GaussianMap::for_each_array(Visit&& visit) {
   visit(rotations.value, 4, false);
   visit(opacity_logits.value, 1, false);
   visit(sh.value, sh_words, false);
+  visit(uncertainty, 1, true);
   const auto moments = [&](auto& parameter, uint32_t words) {
     visit(parameter.first_moment, words, true);
     visit(parameter.second_moment, words, true);

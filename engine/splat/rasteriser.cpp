@@ -97,7 +97,7 @@ void Rasteriser::record_forward(gpu::Recorder& recorder, const GaussianMap& map,
   recorder.reserve(geometry, view.size.pixels());
   recorder.reserve(dominators, view.size.pixels());
   recorder.reserve(pixel_upstream, view.size.pixels());
-  lists.record(recorder, map, view.camera, view.size);
+  lists.record(recorder, map, view.camera, view.size, view.uncertainty_above);
   recorder.dispatch(outputs == Outputs::All ? forward_all_ : forward_, lists.tiles_x(view.size),
                     lists.tiles_y(view.size),
                     {.camera = view.camera,

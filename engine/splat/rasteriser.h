@@ -1,5 +1,7 @@
 #pragma once
 
+#include <limits>
+
 #include "engine/splat/camera.h"
 #include "engine/splat/pose_gradient.h"
 #include "engine/splat/render_images.h"
@@ -20,10 +22,12 @@ glsl::CameraState to_device(const Camera& camera);
 Pose pose_of(const glsl::CameraState& state);
 
 /// A view on the device: the camera (which pose optimisation moves) and the sensor's depth, 0 where invalid.
+/// Gaussians whose uncertainty is above `uncertainty_above` (m^2) are left out.
 struct View {
   ImageSize size;
   const gpu::Array<glsl::CameraState>& camera;
   const gpu::Array<float>& sensor_depth;
+  float uncertainty_above = std::numeric_limits<float>::infinity();
 };
 
 /// Which outputs a forward pass computes: colour, opacity and D_alpha always.

@@ -95,14 +95,15 @@ void TileLists::reserve(gpu::Recorder& recorder, const GaussianMap& map, const I
 }
 
 void TileLists::record(gpu::Recorder& recorder, const GaussianMap& map,
-                       const gpu::Array<glsl::CameraState>& camera, const ImageSize& size) {
+                       const gpu::Array<glsl::CameraState>& camera, const ImageSize& size,
+                       float uncertainty_above) {
   reserve(recorder, map, size);
-  record_projection(recorder, map, camera);
+  record_projection(recorder, map, camera, uncertainty_above);
   record_instances(recorder, camera, tiles_x(size) * tiles_y(size));
 }
 
 void TileLists::record_projection(gpu::Recorder& recorder, const GaussianMap& map,
-                                  const gpu::Array<glsl::CameraState>& camera) {
+                                  const gpu::Array<glsl::CameraState>& camera, float uncertainty_above) {
   auto& project = projection(map.sh_degree());
   recorder.dispatch(project, project.groups(gaussians_),
                     {.camera = camera,
@@ -113,8 +114,9 @@ void TileLists::record_projection(gpu::Recorder& recorder, const GaussianMap& ma
                      .sh = map.sh.value,
                      .splats = splats,
                      .tile_counts = tile_counts,
-                     .visible_flags = visible_flags_},
-                    {.count = gaussians_});
+                     .visible_flags = visible_flags_,
+                     .uncertainty = map.uncertainty},
+                    {.count = gaussians_, .uncertainty_above = uncertainty_above});
   scan_.record(recorder, visible_flags_, visible_offsets_, visible_count, {map.count, gaussians_});
   scan_.record(recorder, tile_counts, instance_offsets, instance_total_, {map.count, gaussians_});
   recorder.dispatch(compact_, compact_.groups(gaussians_),

@@ -39,9 +39,10 @@ class TileLists {
  public:
   TileLists(gpu::Device& device, const TileShape& shape);
 
-  /// Records everything for one view. Buffers grow first if the map or the image did.
+  /// Records everything for one view, without Gaussians whose uncertainty is above `uncertainty_above` (m^2).
+  /// Buffers grow first if the map or the image did.
   void record(gpu::Recorder& recorder, const GaussianMap& map, const gpu::Array<glsl::CameraState>& camera,
-              const ImageSize& size);
+              const ImageSize& size, float uncertainty_above);
 
   /// After a submission: makes room if a view had more instances than that, and returns how many of the
   /// recorded views came before it. From that view on nothing was changed, and the work must be recorded
@@ -75,7 +76,7 @@ class TileLists {
  private:
   void reserve(gpu::Recorder& recorder, const GaussianMap& map, const ImageSize& size);
   void record_projection(gpu::Recorder& recorder, const GaussianMap& map,
-                         const gpu::Array<glsl::CameraState>& camera);
+                         const gpu::Array<glsl::CameraState>& camera, float uncertainty_above);
   void record_instances(gpu::Recorder& recorder, const gpu::Array<glsl::CameraState>& camera, uint32_t tiles);
   gpu::Pass<passes::project_splats>& projection(int sh_degree);
 

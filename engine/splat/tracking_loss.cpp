@@ -35,7 +35,10 @@ void TrackingLoss::record(gpu::Recorder& recorder, Rasteriser& rasteriser, const
   const auto pixels = static_cast<uint32_t>(frame.size.pixels());
   const auto& pass = passes_of(settings.depth).residuals;
   recorder.reserve(residuals_, pixels);
-  rasteriser.record_forward(recorder, map, {frame.size, camera, frame.depth}, Outputs::ColourDepth);
+  const float uncertain = settings.uncertainty_above > 0 ? static_cast<float>(settings.uncertainty_above)
+                                                         : std::numeric_limits<float>::infinity();
+  rasteriser.record_forward(recorder, map, {frame.size, camera, frame.depth, uncertain},
+                            Outputs::ColourDepth);
   recorder.fill(histograms_, 2 * glsl::RESIDUAL_BINS, 0);
   recorder.dispatch(pass, pass.groups(pixels),
                     {.colour_opacity = rasteriser.colour_opacity,

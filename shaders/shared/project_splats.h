@@ -3,7 +3,7 @@
 
 #define PASS project_splats
 #define PASS_CONSTANTS(C) C(1, TILE_W, 8) C(2, TILE_H, 8) C(3, SH_DEGREE, 0)
-#define PASS_PARAMS(P) P(uint, count)
+#define PASS_PARAMS(P) P(uint, count) P(float, uncertainty_above) /* those above are left out */
 #define PASS_BINDINGS(READ, WRITE, UPDATE) \
   READ(0, CameraState, camera)             \
   READ(1, vec3, means)                     \
@@ -13,5 +13,6 @@
   READ(5, vec3, sh)                        \
   WRITE(6, Splat, splats)                  \
   WRITE(7, uint, tile_counts)              \
-  WRITE(8, uint, visible_flags)
+  WRITE(8, uint, visible_flags)            \
+  READ(9, float, uncertainty)
 #include "declare_pass.h"

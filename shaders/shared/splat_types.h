@@ -83,6 +83,16 @@ struct RenderStatus {
   uint completed;  // views rendered before the first that had no room
 };
 
+/// What a Gaussian's dominated pixels add up to (paper eq. 13), in whole steps so that the order does not matter.
+struct UncertaintySum {
+  uint low;     // sum of alpha T (D - z)^2, in steps of 1 / UNCERTAINTY_STEPS: 64 bits in two words
+  uint high;
+  uint pixels;  // that it dominates and where the sensor's depth is valid
+};
+
+SHARED_CONST float UNCERTAINTY_STEPS = 16777216.0f;  // of a square metre: to 2^-24 m^2, a quarter of a millimetre squared
+SHARED_CONST float LARGEST_UNCERTAINTY = 255.0f;     // of a pixel, m^2; what fits one word
+
 // How a Gaussian of a rebuilt map came about, in the top bits of its source's index.
 SHARED_CONST uint SOURCE_KEPT = 0u << 30;
 SHARED_CONST uint SOURCE_CLONE = 1u << 30;

@@ -33,6 +33,8 @@ void main() {
   const float probe = dot(s.centre, s.centre) + dot(s.conic, s.conic) + dot(s.colour, s.colour) + s.opacity;
   if (!in_front || isnan(probe) || isinf(probe)) s.opacity = 0;
 
+  if (uncertainty[i] > params.uncertainty_above) s.opacity = 0;
+
   const Footprint f = footprint_of(c, s);
   uint tiles = 0;
   for (uint row = f.rows.x; row < f.rows.y; ++row) {

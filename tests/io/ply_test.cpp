@@ -18,7 +18,8 @@ namespace {
 
 bool equal(const GaussianCloud& a, const GaussianCloud& b) {
   return a.sh_degree == b.sh_degree && a.means == b.means && a.log_scales == b.log_scales &&
-         a.rotations == b.rotations && a.opacity_logits == b.opacity_logits && a.sh == b.sh;
+         a.rotations == b.rotations && a.opacity_logits == b.opacity_logits && a.sh == b.sh &&
+         a.uncertainty == b.uncertainty;
 }
 
 constexpr const char* kAsciiHeader =
@@ -68,13 +69,15 @@ TEST_CASE("the layout on disk is the usual one: f_rest is channel-major, floats 
   const std::size_t data = bytes.find(end) + end.size();
   std::vector<float> values((bytes.size() - data) / sizeof(float));
   std::memcpy(values.data(), bytes.data() + data, values.size() * sizeof(float));
-  REQUIRE(values.size() == 3 + 3 + 3 + 9 + 1 + 3 + 4);
+  REQUIRE(values.size() == 3 + 3 + 3 + 9 + 1 + 3 + 4 + 1);
   CHECK(values[0] == cloud.means[0].x());
   CHECK(std::vector<float>(values.begin() + 3, values.begin() + 18) ==
         std::vector<float>{0, 0, 0, 0, 10, 20, 1, 2, 3, 11, 12, 13, 21, 22, 23});
   CHECK(values[18] == cloud.opacity_logits[0]);
   CHECK(values[19] == cloud.log_scales[0].x());
   CHECK(values[22] == cloud.rotations[0].x());
+  CHECK(values[26] == cloud.uncertainty[0]);
+  CHECK(contains(bytes.substr(0, data), "property float rot_3\nproperty float uncertainty\nend_header\n"));
   CHECK(bytes.substr(0, 36) == "ply\nformat binary_little_endian 1.0\n");
 }
 
@@ -90,6 +93,7 @@ TEST_CASE("properties may come in any order and type, others are ignored, ASCII 
   CHECK(read.cloud.opacity_logits[0] == -0.5f);
   CHECK(read.cloud.log_scales[1] == Eigen::Vector3f(-1, -2, -3));
   CHECK(read.cloud.sh == std::vector<float>{0.1f, 0.2f, 0.3f, 0.4f, 0.5f, 0.6f});
+  CHECK(read.cloud.uncertainty == std::vector<float>{0, 0});  // the file has none
 }
 
 TEST_CASE("Gaussians with NaN, infinity or a zero rotation are left out and counted") {
@@ -98,12 +102,13 @@ TEST_CASE("Gaussians with NaN, infinity or a zero rotation are left out and coun
   cloud.means[1].x() = std::numeric_limits<float>::quiet_NaN();
   cloud.sh[27 * 4 + 20] = std::numeric_limits<float>::infinity();
   cloud.rotations[9].setZero();
+  cloud.uncertainty[3] = std::numeric_limits<float>::infinity();
   write_ply(folder / "a.ply", cloud);
   const PlyCloud read = read_ply(folder / "a.ply");
-  CHECK(read.dropped == 3);
-  REQUIRE(read.cloud.size() == 7);
+  CHECK(read.dropped == 4);
+  REQUIRE(read.cloud.size() == 6);
   CHECK(read.cloud.means[1] == cloud.means[2]);
-  CHECK(read.cloud.sh.size() == 7 * 27);
+  CHECK(read.cloud.sh.size() == 6 * 27);
 }
 
 TEST_CASE("wrong files are refused with the reason") {

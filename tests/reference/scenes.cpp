@@ -112,6 +112,7 @@ void add_gaussian(Random& random, const Blob& blob, const Camera& camera, Gaussi
   const Eigen::Vector4d rotation(random.uniform(-1, 1), imaginary.x(), imaginary.y(), imaginary.z());
   cloud.rotations.push_back((rotation.normalized() * random.uniform(0.5, 2)).cast<float>());
   cloud.opacity_logits.push_back(static_cast<float>(std::log(blob.opacity / (1 - blob.opacity))));
+  cloud.uncertainty.push_back(0.0f);
   for (int c = 0; c < sh_coefficients(cloud.sh_degree); ++c) {
     // About one channel in ten of degree 0 comes out negative.
     const double low = c == 0 ? -2.2 : -0.3, high = c == 0 ? 1.8 : 0.3;

@@ -27,6 +27,7 @@ GaussianCloud row(int blocks, int sh_degree = 0) {
     cloud.log_scales[i] = {-2 - x / 100, -3, -4};
     cloud.rotations[i] = {1, x / 50, 0, 0};
     cloud.opacity_logits[i] = x / 10 - 1;
+    cloud.uncertainty[i] = x / 7;
   }
   for (std::size_t i = 0; i < cloud.sh.size(); ++i) cloud.sh[i] = static_cast<float>(i) / 97;
   return cloud;
@@ -101,6 +102,7 @@ TEST_CASE("the parts of a map on the device and in host memory make the whole cl
     CHECK(cloud.log_scales[i] == all.log_scales[was]);
     CHECK(cloud.rotations[i] == all.rotations[was]);
     CHECK(cloud.opacity_logits[i] == all.opacity_logits[was]);
+    CHECK(cloud.uncertainty[i] == all.uncertainty[was]);
     CHECK(std::equal(&cloud.sh[i * 12], &cloud.sh[i * 12] + 12, &all.sh[was * 12]));
   }
 }

@@ -18,6 +18,7 @@ inline GaussianCloud wall(int width, int height, double focal) {
       cloud.log_scales.push_back(Eigen::Vector3f::Constant(static_cast<float>(std::log(z / focal))));
       cloud.rotations.emplace_back(1, 0, 0, 0);
       cloud.opacity_logits.push_back(3.0f);
+      cloud.uncertainty.push_back(0.0f);
       for (int c = 0; c < 3; ++c)
         cloud.sh.push_back(static_cast<float>(std::sin(0.5 * u + c) * std::cos(0.4 * v - c)));
     }

@@ -24,6 +24,7 @@ GaussianCloud two_gaussians() {
     cloud.log_scales[i].setConstant(std::log(0.04f));
     cloud.opacity_logits[i] = static_cast<float>(std::log(kOpacity / (1 - kOpacity)));
   }
+  cloud.uncertainty = {0.04f, 0};
   constexpr float kDegreeZero = 0.28209479f;
   for (int c = 0; c < 3; ++c) cloud.sh[c] = ((c == 0 ? 1.0f : 0.0f) - 0.5f) / kDegreeZero;
   return cloud;
@@ -56,8 +57,14 @@ TEST_CASE("render writes every output with the values that the formulas give") {
   CHECK(at("dominator_weight", 32) == doctest::Approx(kOpacity));
   CHECK(at("dominator", 52) == 1);
   CHECK(at("depth_median", 52) == doctest::Approx(4));
-  for (const char* name :
-       {"opacity", "depth", "depth_normalised", "depth_median", "uncertainty", "dominator_weight"}) {
+  CHECK(at("gaussian_uncertainty", 32) == doctest::Approx(0.04));
+  CHECK(at("gaussian_uncertainty", 52) == doctest::Approx(0));
+  const cv::Mat shown = read_colour(view / "gaussian_uncertainty.png");
+  CHECK(shown.at<cv::Vec3b>(24, 32) == cv::Vec3b(252, 255, 164));  // 20 cm, the end of the scale
+  CHECK(shown.at<cv::Vec3b>(24, 52) == cv::Vec3b(0, 0, 4));
+  CHECK(shown.at<cv::Vec3b>(24, 0) == cv::Vec3b(128, 128, 128));
+  for (const char* name : {"opacity", "depth", "depth_normalised", "depth_median", "uncertainty",
+                           "dominator_weight", "gaussian_uncertainty"}) {
     CHECK(at(name, 0) == 0);
   }
   CHECK(at("dominator", 0) == -1);

@@ -125,7 +125,8 @@ TEST_CASE("frames.csv says of each frame what metrics.json says") {
   std::getline(csv, line);
   CHECK(line ==
         "index,timestamp_s,keyframe,lost,retries,loss,valid_fraction,tracking_iterations,tracking_ms,"
-        "mapping_iterations,mapping_ms,gaussians,device_gaussians,device_mb");
+        "mapping_iterations,mapping_ms,gaussians,uncertain_gaussians,device_gaussians,"
+        "device_mb");
   for (const auto& frame : frames) {
     REQUIRE(std::getline(csv, line));
     std::istringstream cells(line);
