@@ -33,6 +33,8 @@ void add_tables(CLI::App& program, Action& action);
 void add_export(CLI::App& program, Action& action);
 void add_mesh(CLI::App& program, Action& action);
 void add_synth(CLI::App& program, Action& action);
+void add_places(CLI::App& program, Action& action);
+void add_vocabulary(CLI::App& program, Action& action);
 void add_bench(CLI::App& program, Action& action);
 
 /// What --format of a dataset may be: "auto" and dataset_formats().

@@ -1,11 +1,9 @@
 #include "engine/eval/lpips.h"
 
 #include <cmath>
-#include <opencv2/core/utils/logger.hpp>
-#include <opencv2/dnn.hpp>
 
 #include "engine/io/error.h"
-#include "engine/io/files.h"
+#include "engine/io/onnx_file.h"
 
 namespace surefield {
 
@@ -21,31 +19,14 @@ cv::Mat to_blob(const cv::Mat& image) {
   return cv::dnn::blobFromImage(centred * 2);
 }
 
-/// The first line of what OpenCV says; the others name its source files.
-std::string reason(const cv::Exception& error) {
-  const std::string text = error.err.empty() ? error.what() : error.err;
-  return text.substr(0, text.find('\n'));
-}
-
 }  // namespace
 
 struct Lpips::Network {
   cv::dnn::Net net;
 };
 
-Lpips::Lpips(const std::filesystem::path& network) : file_(network), network_(std::make_unique<Network>()) {
-  const std::string bytes = read_file(network);
-  // OpenCV would print what it throws as well.
-  const auto level = cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
-  try {
-    network_->net = cv::dnn::readNetFromONNX(bytes.data(), bytes.size());
-  } catch (const cv::Exception& error) {
-    cv::utils::logging::setLogLevel(level);
-    throw InputError(file_, "is no ONNX network that OpenCV can read: " + reason(error));
-  }
-  cv::utils::logging::setLogLevel(level);
-  if (network_->net.empty()) throw InputError(file_, "holds no ONNX network");
-}
+Lpips::Lpips(const std::filesystem::path& network)
+    : file_(network), network_(std::make_unique<Network>(Network{read_onnx(network).net})) {}
 
 Lpips::~Lpips() = default;
 
@@ -60,7 +41,7 @@ double Lpips::distance(const cv::Mat& image, const cv::Mat& reference) {
     network_->net.setInput(to_blob(reference), kSecondInput);
     result = network_->net.forward();
   } catch (const cv::Exception& error) {
-    throw InputError(file_, "does not take two images in0 and in1 of this size: " + reason(error));
+    throw InputError(file_, "does not take two images in0 and in1 of this size: " + first_line(error));
   }
   if (result.empty() || result.depth() != CV_32F) throw InputError(file_, "gives no 32-bit float output");
   const double distance = cv::mean(result.reshape(1, 1))[0];

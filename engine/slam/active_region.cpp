@@ -34,8 +34,9 @@ void ActiveRegion::approach(const std::vector<Keyframe>& keyframes,
   engine_.focus(regions, 0);
 }
 
-void ActiveRegion::settle(const std::vector<Keyframe>& keyframes, uint32_t births) {
-  near_ = nearest_keyframes(keyframes, most_);
+void ActiveRegion::settle(const std::vector<Keyframe>& keyframes, const std::vector<int>& similar,
+                          uint32_t births) {
+  near_ = nearest_keyframes(keyframes, most_, similar);
   if (near_.size() == keyframes.size() && engine_.is_whole(births)) return;
   std::vector<WorldPoints> regions;
   add_views(regions, keyframes, near_);

@@ -19,8 +19,9 @@ class ActiveRegion {
                 const Pose& world_to_camera);
 
   /// Before the newest keyframe's `births` Gaussians are added: settles on the keyframes near it that mapping
-  /// works with, whose views are then on the device.
-  void settle(const std::vector<Keyframe>& keyframes, uint32_t births);
+  /// works with, whose views are then on the device. Those of `similar` are among them as far as the device
+  /// holds them, wherever they are.
+  void settle(const std::vector<Keyframe>& keyframes, const std::vector<int>& similar, uint32_t births);
 
   /// Those keyframes, the newest included: positions in the list of keyframes.
   const std::vector<int>& near() const { return near_; }

@@ -46,7 +46,8 @@ double overlap(const Keyframe& from, const Keyframe& to) {
   return from.points.empty() ? 0 : static_cast<double>(seen) / static_cast<double>(from.points.size());
 }
 
-std::vector<int> nearest_keyframes(const std::vector<Keyframe>& keyframes, int count) {
+std::vector<int> nearest_keyframes(const std::vector<Keyframe>& keyframes, int count,
+                                   const std::vector<int>& similar) {
   const int newest = static_cast<int>(keyframes.size()) - 1;
   const auto place = [&](int k) {
     return keyframes[k].camera.world_to_camera.inverse().translation().eval();
@@ -57,8 +58,10 @@ std::vector<int> nearest_keyframes(const std::vector<Keyframe>& keyframes, int c
   const Eigen::Vector3d newest_place = place(newest), newest_middle = middle(newest);
   std::vector<std::pair<double, int>> others;
   for (int k = newest - 1; k >= 0; --k) {
-    const double apart = (place(k) - newest_place).norm() + (middle(k) - newest_middle).norm();
-    others.emplace_back(k == newest - 1 ? 0 : apart, -k);  // of equals, the more recent first
+    double apart = (place(k) - newest_place).norm() + (middle(k) - newest_middle).norm();
+    if (std::find(similar.begin(), similar.end(), k) != similar.end()) apart = -1;
+    if (k == newest - 1) apart = -2;
+    others.emplace_back(apart, -k);  // of equals, the more recent first
   }
   const auto kept = std::min<std::size_t>(others.size(), count - 1);
   std::partial_sort(others.begin(), others.begin() + static_cast<std::ptrdiff_t>(kept), others.end());
@@ -67,8 +70,8 @@ std::vector<int> nearest_keyframes(const std::vector<Keyframe>& keyframes, int c
   return nearest;
 }
 
-KeyframeWindow select_window(const std::vector<Keyframe>& keyframes, const std::vector<int>& near, int size) {
-  const int current = static_cast<int>(keyframes.size()) - 1;
+KeyframeWindow select_window(int current, const std::vector<int>& near, int size,
+                             const std::function<double(int)>& score) {
   KeyframeWindow window;
   window.members.push_back(current);
   std::vector<std::pair<double, int>> others;
@@ -77,12 +80,12 @@ KeyframeWindow select_window(const std::vector<Keyframe>& keyframes, const std::
     if (k == current - 1 && size > 1)
       window.members.push_back(k);
     else
-      others.emplace_back(overlap(keyframes[current], keyframes[k]), k);
+      others.emplace_back(score(k), k);
   }
   // Of equals, the more recent first.
   std::sort(others.rbegin(), others.rend());
-  for (const auto& [score, k] : others) {
-    if (static_cast<int>(window.members.size()) >= size || score <= 0) break;
+  for (const auto& [best, k] : others) {
+    if (static_cast<int>(window.members.size()) >= size || best <= 0) break;
     window.members.push_back(k);
   }
   std::sort(window.members.begin(), window.members.end());

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <random>
 #include <vector>
 
@@ -30,9 +31,11 @@ std::vector<Eigen::Vector3f> sample_points(const Frame& frame, const Intrinsics&
 /// in [0, 1].
 double overlap(const Keyframe& from, const Keyframe& to);
 
-/// The `count` keyframes near the newest one: itself, the one before it, then those whose cameras, and the
-/// middles of what they see, are nearest to its own. Positions in the list of keyframes.
-std::vector<int> nearest_keyframes(const std::vector<Keyframe>& keyframes, int count);
+/// The `count` keyframes near the newest one: itself, the one before it, those of `similar` (which look the
+/// same, wherever they are thought to be), then those whose cameras, and the middles of what they see, are
+/// nearest to its own. Positions in the list of keyframes.
+std::vector<int> nearest_keyframes(const std::vector<Keyframe>& keyframes, int count,
+                                   const std::vector<int>& similar = {});
 
 /// The keyframes that one mapping call works on: positions in the list of keyframes.
 struct KeyframeWindow {
@@ -40,9 +43,11 @@ struct KeyframeWindow {
   int fixed = 0;             ///< the oldest member: its pose is held (gauge)
 };
 
-/// The window of `size` keyframes of the newest one (paper section 3.4): itself, the one before it, and those
-/// of `near` (see nearest_keyframes()) that overlap it most.
-KeyframeWindow select_window(const std::vector<Keyframe>& keyframes, const std::vector<int>& near, int size);
+/// The window of `size` keyframes of the newest one, `current` (paper section 3.4): itself, the one before
+/// it, and those of `near` (see nearest_keyframes()) of the highest `score`; none whose score is not
+/// positive.
+KeyframeWindow select_window(int current, const std::vector<int>& near, int size,
+                             const std::function<double(int)>& score);
 
 /// The order in which `steps` mapping steps visit keyframes: cycles through the window, each followed by
 /// `past` keyframes drawn at random from the others of `near`, against forgetting. Positions in the list of

@@ -103,6 +103,31 @@ void bind_spawn(ConfigSchema& schema, SpawnSettings& spawn) {
              "radius at birth, in pixels at the Gaussian's depth");
 }
 
+void bind_keyframes(ConfigSchema& schema, KeyframeSettings& keyframes) {
+  schema.add("keyframes.interval", &keyframes.interval, Range{1, 100000},
+             "every so many frames is a keyframe");
+  schema.add("keyframes.valid_below", &keyframes.valid_below, kFraction,
+             "also when a smaller fraction of the sensor's depth agrees with the map");
+  schema.add("keyframes.window", &keyframes.window, Range{1, 1000},
+             "k, keyframes optimised together: the current, the most recent, and the k - 2 that see most "
+             "of the same");
+  schema.add("keyframes.past_keyframes", &keyframes.past_keyframes, Range{0, 1000},
+             "random older keyframes among the steps, against forgetting");
+  schema.add(
+      "keyframes.near", &keyframes.near, Range{1, 1000000},
+      "the window and the older keyframes are among this many that are nearest to the current one; the "
+      "Gaussians that none of them sees wait in host memory");
+  schema.add("keyframes.covisibility", &keyframes.covisibility,
+             Choices<CovisibilityKind>{{"overlap", CovisibilityKind::Overlap},
+                                       {"vlad", CovisibilityKind::Vlad},
+                                       {"netvlad", CovisibilityKind::NetVlad}},
+             "what says which keyframes see the same: reprojected depth, or the similarity of descriptors of "
+             "all images (docs/places.md)");
+  schema.add("keyframes.vocabulary", &keyframes.vocabulary,
+             "vlad: file of visual words from surefield vocabulary; empty: the built-in one");
+  schema.add("keyframes.netvlad", &keyframes.netvlad, "netvlad: the network, an ONNX file");
+}
+
 }  // namespace
 
 void SlamSettings::bind(ConfigSchema& schema) {
@@ -118,19 +143,7 @@ void SlamSettings::bind(ConfigSchema& schema) {
              "adam: steps of the first tracked frame, at most");
   bind_tracking(schema, tracking);
   bind_mapping(schema, mapping);
-  schema.add("keyframes.interval", &keyframes.interval, Range{1, 100000},
-             "every so many frames is a keyframe");
-  schema.add("keyframes.valid_below", &keyframes.valid_below, kFraction,
-             "also when a smaller fraction of the sensor's depth agrees with the map");
-  schema.add(
-      "keyframes.window", &keyframes.window, Range{1, 1000},
-      "k, keyframes optimised together: the current, the most recent, and the k - 2 that overlap most");
-  schema.add("keyframes.past_keyframes", &keyframes.past_keyframes, Range{0, 1000},
-             "random older keyframes among the steps, against forgetting");
-  schema.add(
-      "keyframes.near", &keyframes.near, Range{1, 1000000},
-      "the window and the older keyframes are among this many that are nearest to the current one; the "
-      "Gaussians that none of them sees wait in host memory");
+  bind_keyframes(schema, keyframes);
   bind_spawn(schema, spawn);
   bind_densify(schema, densify);
   schema.add("lost.loss_jump", &lost.loss_jump, kFactor,

@@ -5,13 +5,20 @@
 
 namespace surefield {
 
+/// How the keyframes that see the same are found: by reprojecting their depth, or by describing their images
+/// with VLAD over RootSIFT or with a network.
+enum class CovisibilityKind { Overlap, Vlad, NetVlad };
+
 /// When a frame becomes a keyframe and which keyframes are optimised together (paper section 3.4).
 struct KeyframeSettings {
   int interval = 15;         ///< every so many frames
   double valid_below = 0.7;  ///< also when less than this fraction of the sensor's depth agrees with the map
-  int window = 4;            ///< k: current, most recent, and the k - 2 that overlap most
+  int window = 4;            ///< k: current, most recent, and the k - 2 that see most of the same
   int past_keyframes = 2;    ///< random older keyframes among the steps, against forgetting
   int near = 32;             ///< the window and the older ones are among so many nearest to the current
+  CovisibilityKind covisibility = CovisibilityKind::Overlap;
+  std::string vocabulary;  ///< file of the visual words of Vlad; empty: the built-in one
+  std::string netvlad;     ///< ONNX file of NetVlad
 };
 
 /// How new Gaussians are born (paper section 3.3).

@@ -9,6 +9,7 @@
 #include <stdexcept>
 
 #include "engine/slam/active_region.h"
+#include "engine/slam/covisibility.h"
 #include "engine/slam/keyframes.h"
 #include "engine/slam/spawn.h"
 
@@ -40,6 +41,7 @@ struct TrackedFrame {
 struct Slam::Implementation {
   SlamSettings settings;
   Intrinsics intrinsics;
+  Covisibility covisibility;
   SplatEngine engine;
   ActiveRegion region;
   std::mt19937 random;
@@ -54,6 +56,7 @@ struct Slam::Implementation {
   Implementation(const SlamSettings& s, const Intrinsics& k, const EngineOptions& options)
       : settings(s),
         intrinsics(k),
+        covisibility(s.keyframes),
         engine(options),
         region(engine, s),
         random(static_cast<uint32_t>(s.seed)) {}
@@ -159,6 +162,7 @@ void Slam::Implementation::initialise(const Frame& frame, FrameReport& report) {
   extent = scene_extent(frame, settings.depth_max);
   const Camera camera{intrinsics};
   engine.assign(spawn_gaussians(frame, camera, nullptr, settings.spawn, settings.depth_max));
+  covisibility.add(frame);
   frames.push_back({frame.timestamp, 0, Pose::Identity()});
   keyframes.push_back(make_keyframe(frame, engine.load(view_of(frame, settings.depth_max)), camera,
                                     sample_points(frame, intrinsics, settings.depth_max)));
@@ -219,18 +223,19 @@ void Slam::Implementation::track(FrameHandle handle, FrameReport& report) {
 
 void Slam::Implementation::add_keyframe(const Frame& frame, FrameHandle handle, const Pose& world_to_camera) {
   const Camera camera{intrinsics, world_to_camera};
+  covisibility.add(frame);
   keyframes.push_back(
       make_keyframe(frame, handle, camera, sample_points(frame, intrinsics, settings.depth_max)));
   frames.back() = {frame.timestamp, static_cast<int>(keyframes.size()) - 1, Pose::Identity()};
   last_keyframe_frame = static_cast<int>(frames.size()) - 1;
   const RenderImages rendered = engine.render(camera);
   const GaussianCloud births = spawn_gaussians(frame, camera, &rendered, settings.spawn, settings.depth_max);
-  region.settle(keyframes, static_cast<uint32_t>(births.size()));
+  region.settle(keyframes, covisibility.similar(), static_cast<uint32_t>(births.size()));
   engine.insert(births);
 }
 
 void Slam::Implementation::map_window(FrameReport& report) {
-  const KeyframeWindow window = select_window(keyframes, region.near(), settings.keyframes.window);
+  const KeyframeWindow window = covisibility.window(keyframes, region.near());
   const auto order = mapping_order(window, region.near(), settings.mapping_iterations,
                                    settings.keyframes.past_keyframes, random);
   std::vector<int> refined;

@@ -38,7 +38,8 @@ struct FrameReport {
 ///   write_ply("map.ply", slam.map());
 class Slam {
  public:
-  /// `intrinsics` are those of the frames that will be fed. Throws gpu::Error when no device is usable.
+  /// `intrinsics` are those of the frames that will be fed. Throws gpu::Error when no device is usable, and
+  /// InputError where a file that the settings name cannot be used.
   Slam(const SlamSettings& settings, const Intrinsics& intrinsics, const EngineOptions& options = {});
   ~Slam();
 

@@ -2,8 +2,8 @@
 
 #include <doctest/doctest.h>
 
-#include "tests/eval/onnx_writer.h"
 #include "tests/io/support.h"
+#include "tests/support/onnx_writer.h"
 
 using namespace surefield;
 using namespace surefield::test;

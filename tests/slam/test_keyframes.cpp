@@ -48,19 +48,20 @@ TEST_CASE("overlap is one for the same view, less to the side, none behind") {
   CHECK(overlap(blind, keyframe(0)) == 0);
 }
 
-TEST_CASE("the window holds the current keyframe, the one before, and the best overlaps") {
-  const std::vector<Keyframe> keyframes{keyframe(0.1), keyframe(9), keyframe(0.5), keyframe(5), keyframe(0)};
-  const std::vector<int> all{4, 3, 2, 1, 0};
-  const KeyframeWindow window = select_window(keyframes, all, 4);
+TEST_CASE("the window holds the current keyframe, the one before, and those of the best scores") {
+  const std::vector<double> scores{0.8, 0, 0.7, 0.1, 1};
+  const auto members = [&](const std::vector<int>& near, int size) {
+    return select_window(4, near, size, [&](int k) { return scores[k]; });
+  };
+  const KeyframeWindow window = members({4, 3, 2, 1, 0}, 4);
   CHECK(window.members == std::vector<int>{0, 2, 3, 4});
   CHECK(window.fixed == 0);
-  CHECK(select_window(keyframes, all, 1).members == std::vector<int>{4});
-  CHECK(select_window(keyframes, {4, 3, 2, 1}, 4).members == std::vector<int>{2, 3, 4});
-  CHECK(select_window(keyframes, {4}, 4).members == std::vector<int>{4});
-  CHECK(select_window({keyframe(0)}, {0}, 4).members == std::vector<int>{0});
-  // What does not overlap at all is of no use.
-  CHECK(select_window({keyframe(9), keyframe(5), keyframe(0)}, {2, 1, 0}, 4).members ==
-        std::vector<int>{1, 2});
+  CHECK(members({4, 3, 2, 1, 0}, 3).members == std::vector<int>{0, 3, 4});
+  CHECK(members({4, 3, 2, 1, 0}, 1).members == std::vector<int>{4});
+  CHECK(members({4, 3, 2, 1}, 4).members == std::vector<int>{2, 3, 4});
+  CHECK(members({4}, 4).members == std::vector<int>{4});
+  // What has nothing in common is of no use.
+  CHECK(members({4, 3, 1}, 4).members == std::vector<int>{3, 4});
 }
 
 TEST_CASE("the mapping order cycles through the window and visits the past") {
@@ -84,4 +85,8 @@ TEST_CASE("the nearest keyframes stand near the newest and see what it sees; it 
   CHECK(nearest_keyframes(keyframes, 4) == std::vector<int>{6, 5, 3, 2});
   CHECK(nearest_keyframes(keyframes, 1) == std::vector<int>{6});
   CHECK(nearest_keyframes({keyframe(3)}, 4) == std::vector<int>{0});
+  // Those that look alike come before those that are near.
+  CHECK(nearest_keyframes(keyframes, 5, {1, 0}) == std::vector<int>{6, 5, 1, 0, 3});
+  CHECK(nearest_keyframes(keyframes, 2, {1, 0}) == std::vector<int>{6, 5});
+  CHECK(nearest_keyframes(keyframes, 3, {5}) == std::vector<int>{6, 5, 3});
 }

@@ -4,6 +4,7 @@
 #include <stdexcept>
 
 #include "engine/eval/trajectory_metrics.h"
+#include "engine/io/error.h"
 #include "engine/io/frame_stream.h"
 #include "engine/slam/slam.h"
 #include "engine/synth/synthetic_dataset.h"
@@ -101,6 +102,17 @@ TEST_CASE("a run on a small budget of device memory keeps to it, and its map is 
   for (std::size_t i = 0; i < 9; ++i)
     CHECK(small.trajectory[i].camera_to_world.matrix() == again.trajectory[i].camera_to_world.matrix());
   CHECK(small.map.means == again.map.means);
+}
+
+TEST_CASE("a run whose windows are chosen by images follows the office") {
+  SlamSettings settings = quick();
+  settings.keyframes.covisibility = CovisibilityKind::Vlad;
+  settings.keyframes.window = 3;
+  const Run first = run(9, settings);
+  CHECK(evaluate_trajectory(first.trajectory, first.truth).ate.rmse < 0.02);
+  for (const FrameReport& report : first.reports) CHECK_FALSE(report.lost);
+  settings.keyframes.covisibility = CovisibilityKind::NetVlad;
+  CHECK_THROWS_AS(Slam(settings, Intrinsics{}, options()), InputError);
 }
 
 TEST_CASE("a frame that shows something else is reported as lost after re-tries, and the run goes on") {

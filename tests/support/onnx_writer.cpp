@@ -1,4 +1,4 @@
-#include "tests/eval/onnx_writer.h"
+#include "tests/support/onnx_writer.h"
 
 #include <cstring>
 
@@ -7,7 +7,9 @@ namespace surefield::test {
 namespace {
 
 constexpr int kFloat = 1;      // TensorProto.DataType
-constexpr int kInts = 7;       // AttributeProto.AttributeType
+constexpr int kInt64 = 7;      // the same
+constexpr int kInt = 2;        // AttributeProto.AttributeType
+constexpr int kInts = 7;       // the same
 constexpr int kIrVersion = 6;  // of the format
 constexpr int kOpsetVersion = 11;
 
@@ -46,12 +48,19 @@ Message value_info(const std::string& name, const std::vector<int64_t>& shape) {
   return Message().text(1, name).message(2, Message().message(1, tensor));
 }
 
+template <class T>
+std::string bytes_of(const std::vector<T>& values) {
+  std::string raw(values.size() * sizeof(T), '\0');
+  std::memcpy(raw.data(), values.data(), raw.size());
+  return raw;
+}
+
 Message constant(const OnnxTensor& tensor) {
   Message message;
   for (int64_t size : tensor.shape) message.number(1, size);
-  std::string raw(tensor.values.size() * sizeof(float), '\0');
-  std::memcpy(raw.data(), tensor.values.data(), raw.size());
-  return message.number(2, kFloat).text(8, tensor.name).text(9, raw);
+  const bool whole = !tensor.integers.empty();
+  const std::string raw = whole ? bytes_of(tensor.integers) : bytes_of(tensor.values);
+  return message.number(2, whole ? kInt64 : kFloat).text(8, tensor.name).text(9, raw);
 }
 
 Message node(const OnnxNode& node) {
@@ -64,6 +73,8 @@ Message node(const OnnxNode& node) {
     for (int64_t value : values) attribute.number(8, value);
     message.message(5, attribute.number(20, kInts));
   }
+  for (const auto& [name, value] : node.numbers)
+    message.message(5, Message().text(1, name).number(3, value).number(20, kInt));
   return message;
 }
 
@@ -75,7 +86,9 @@ std::string to_onnx(const OnnxNetwork& network) {
   graph.text(2, "network");
   for (const OnnxTensor& each : network.constants) graph.message(5, constant(each));
   for (const std::string& name : network.inputs) graph.message(11, value_info(name, network.input_shape));
-  graph.message(12, value_info(network.nodes.back().output, {1, 1, 1, 1}));
+  graph.message(12, value_info(network.nodes.back().output, network.output_shape));
+  for (const std::string& name : network.other_outputs)
+    graph.message(12, value_info(name, network.output_shape));
   const Message opset = Message().text(1, "").number(2, kOpsetVersion);
   return Message().number(1, kIrVersion).message(7, graph).message(8, opset).bytes();
 }

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "engine/slam/descriptor_pool.h"
+#include "engine/slam/image_descriptor.h"
+#include "engine/slam/keyframes.h"
+#include "engine/slam/settings.h"
+
+namespace surefield {
+
+/// Finds the keyframes that see what the newest one sees: by the overlap of what they are thought to see, or
+/// by the similarity of their images, which does not depend on poses that may have drifted.
+class Covisibility {
+ public:
+  /// Throws InputError where a file that the settings name cannot be used.
+  explicit Covisibility(const KeyframeSettings& settings);
+
+  /// `frame` has become a keyframe, the newest.
+  void add(const Frame& frame);
+
+  /// The k - 2 keyframes that look most like the newest, the best first, wherever they are thought to be;
+  /// none where images are not described.
+  std::vector<int> similar() const;
+
+  /// The window of the newest keyframe, out of those `near` it; see select_window().
+  KeyframeWindow window(const std::vector<Keyframe>& keyframes, const std::vector<int>& near) const;
+
+ private:
+  int size_;                                     ///< k, of the window
+  std::unique_ptr<ImageDescriptor> descriptor_;  ///< null: by overlap
+  DescriptorPool pool_;
+};
+
+/// What describes images as the settings ask; null for CovisibilityKind::Overlap. Throws InputError.
+std::unique_ptr<ImageDescriptor> make_descriptor(const KeyframeSettings& settings);
+
+}  // namespace surefield

@@ -1,0 +1,20 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <opencv2/core.hpp>
+
+namespace surefield {
+
+/// The length of a local feature's descriptor.
+inline constexpr int kFeatureSize = 128;
+
+/// Descriptors of local features, a row each.
+using LocalFeatures = Eigen::Matrix<float, Eigen::Dynamic, kFeatureSize, Eigen::RowMajor>;
+
+/// RootSIFT of the image's SIFT features (CV_8UC3, RGB): descriptors divided by their sum, and the root taken
+/// of each number, so that their scalar product is Hellinger's kernel of the histograms; rows of unit length.
+/// Images are reduced to 320 pixels width first. No rows where nothing stands out. Does not depend on the
+/// number of threads.
+LocalFeatures root_sift(const cv::Mat& rgb);
+
+}  // namespace surefield
