@@ -14,6 +14,7 @@ struct TableMetric {
   NumberSource source;
   std::optional<NumberSource> times = std::nullopt;  ///< "value x count", as for milliseconds and iterations
   std::optional<NumberSource> divisor = std::nullopt;  ///< of the value, or of the count where there is one
+  bool larger_is_better = false;
 };
 
 /// A kind of run with its name in a table.
@@ -31,6 +32,8 @@ struct TableSpec {
   std::vector<TableMetric> metrics;
   std::vector<TableVariant> variants = {{"full", "Surefield"}};
   bool metrics_as_columns = false;  ///< for the mean over all scenes; else one row for each
+  std::string compared_with;  ///< the variant that the others are compared with, by its folder, in place of
+                              ///< published values; the first metric has a column for each scene too
 };
 
 /// All tables, in the order in which they are written.

@@ -8,7 +8,8 @@
 #include "engine/io/error.h"
 #include "engine/io/files.h"
 #include "tools/command.h"
-#include "tools/table_specs.h"
+#include "tools/table_comparison.h"
+#include "tools/table_results.h"
 
 namespace surefield {
 
@@ -40,68 +41,23 @@ struct TableRow {
   std::vector<std::string> cells;
 };
 
-/// The numbers of one metric: value by value divided where the metric asks for it.
-std::map<int, double> divided(const ReproducedRuns& runs, const std::string& place,
-                              const NumberSource& source, const std::optional<NumberSource>& divisor) {
-  std::map<int, double> numbers = runs.numbers(place, source);
-  if (!divisor) return numbers;
-  const std::map<int, double> divisors = runs.numbers(place, *divisor);
-  std::erase_if(numbers, [&](const auto& entry) {
-    const auto at = divisors.find(entry.first);
-    return at == divisors.end() || at->second == 0;
-  });
-  for (auto& [seed, number] : numbers) number /= divisors.at(seed);
-  return numbers;
+/// A cell of an own row.
+std::string cell(const OwnResults& results, const TableVariant& variant, const TableMetric& metric,
+                 const std::string& scene) {
+  const auto value = results.value(variant, metric, scene);
+  if (!value) return kNothing;
+  if (!metric.times) return value->text(metric.decimals);
+  const auto count = results.count(variant, metric, scene);
+  return fmt::format("{:.{}f} x {:.0f}", value->mean, metric.decimals, count ? count->mean : 0);
 }
 
-std::vector<double> values_of(const std::map<int, double>& numbers) {
-  std::vector<double> values;
-  for (const auto& entry : numbers) values.push_back(entry.second);
-  return values;
+/// The same over all scenes.
+std::string mean_cell(const OwnResults& results, const TableVariant& variant, const TableMetric& metric,
+                      const std::vector<std::string>& scenes) {
+  if (scenes.size() == 1) return cell(results, variant, metric, scenes.front());
+  const auto mean = results.mean(variant, metric, scenes);
+  return mean ? mean->text(metric.decimals) : kNothing;
 }
-
-/// The own results of one table.
-class OwnResults {
- public:
-  OwnResults(const ReproducedRuns& runs, const TableSpec& spec) : runs_(runs), spec_(spec) {}
-
-  std::string cell(const TableVariant& variant, const TableMetric& metric, const std::string& scene) const {
-    const std::string place = place_of(variant, scene);
-    const auto value = spread_of(values_of(divided(runs_, place, metric.source, value_divisor(metric))));
-    if (!value) return kNothing;
-    if (!metric.times) return value->text(metric.decimals);
-    const auto count = spread_of(values_of(divided(runs_, place, *metric.times, metric.divisor)));
-    return fmt::format("{:.{}f} x {:.0f}", value->mean, metric.decimals, count ? count->mean : 0);
-  }
-
-  /// Over all scenes, seed by seed; nothing where a scene was not run.
-  std::string mean_cell(const TableVariant& variant, const TableMetric& metric) const {
-    if (spec_.scenes.size() == 1) return cell(variant, metric, spec_.scenes.front());
-    std::map<int, double> sums;
-    std::map<int, std::size_t> counts;
-    for (const std::string& scene : spec_.scenes) {
-      for (const auto& [seed, number] :
-           divided(runs_, place_of(variant, scene), metric.source, value_divisor(metric))) {
-        sums[seed] += number / static_cast<double>(spec_.scenes.size());
-        ++counts[seed];
-      }
-    }
-    std::erase_if(sums, [&](const auto& sum) { return counts[sum.first] < spec_.scenes.size(); });
-    const auto mean = spread_of(values_of(sums));
-    return mean ? mean->text(metric.decimals) : kNothing;
-  }
-
- private:
-  std::string place_of(const TableVariant& variant, const std::string& scene) const {
-    return spec_.set + "/" + scene + "/" + variant.folder;
-  }
-  static std::optional<NumberSource> value_divisor(const TableMetric& metric) {
-    return metric.times ? std::nullopt : metric.divisor;
-  }
-
-  const ReproducedRuns& runs_;
-  const TableSpec& spec_;
-};
 
 std::vector<std::string> columns_of(const TableSpec& spec) {
   std::vector<std::string> columns;
@@ -144,14 +100,14 @@ std::vector<TableRow> own_rows(const TableSpec& spec, const OwnResults& results)
     if (spec.metrics_as_columns) {
       rows.push_back({name, "", {}});
       for (const TableMetric& metric : spec.metrics)
-        rows.back().cells.push_back(results.mean_cell(variant, metric));
+        rows.back().cells.push_back(mean_cell(results, variant, metric, spec.scenes));
       continue;
     }
     for (const TableMetric& metric : spec.metrics) {
       rows.push_back({name, metric.name, {}});
       for (const std::string& scene : spec.scenes)
-        rows.back().cells.push_back(results.cell(variant, metric, scene));
-      rows.back().cells.push_back(results.mean_cell(variant, metric));
+        rows.back().cells.push_back(cell(results, variant, metric, scene));
+      rows.back().cells.push_back(mean_cell(results, variant, metric, spec.scenes));
     }
   }
   return rows;
@@ -168,8 +124,8 @@ std::string frames_line(const TableSpec& spec, const ReproducedRuns& runs) {
   for (const TableVariant& variant : spec.variants) {
     for (const std::string& scene : spec.scenes) {
       const std::string place = spec.set + "/" + scene + "/" + variant.folder;
-      const auto numbers = values_of(runs.numbers(place, {"metrics.json", "/frames/fed"}));
-      counts.insert(counts.end(), numbers.begin(), numbers.end());
+      for (const auto& entry : runs.numbers(place, {"metrics.json", "/frames/fed"}))
+        counts.push_back(entry.second);
     }
   }
   if (counts.empty()) return "";
@@ -206,7 +162,12 @@ std::string source_lines(const TableSpec& spec, const std::vector<PublishedValue
 /// A table with its heading; empty where nothing was run for it.
 std::string table_markdown(const TableSpec& spec, const ReproducedRuns& runs,
                            const std::vector<PublishedValue>& published) {
-  const std::vector<TableRow> own = own_rows(spec, OwnResults(runs, spec));
+  const OwnResults results(runs, spec.set);
+  if (!spec.compared_with.empty()) {
+    const std::string text = comparison_markdown(spec, results);
+    return text.empty() ? "" : text + "\n" + origin_lines(spec, runs) + "\n";
+  }
+  const std::vector<TableRow> own = own_rows(spec, results);
   if (std::none_of(own.begin(), own.end(), has_value)) return "";
   std::vector<TableRow> rows = published_rows(spec, published);
   rows.insert(rows.end(), own.begin(), own.end());

@@ -2,10 +2,12 @@
 #include <sys/wait.h>
 
 #include <cstdlib>
+#include <sstream>
 
 #include "engine/io/files.h"
 #include "engine/io/images.h"
 #include "engine/io/triangle_mesh.h"
+#include "engine/slam/settings.h"
 #include "tests/tools/support.h"
 
 using namespace surefield;
@@ -181,6 +183,104 @@ TEST_CASE("tables give mean and spread over seeds, and a mean over scenes only w
                                    folder.path())
                      .err,
                  "there is no table tracking-mars; there are tracking-replica"));
+}
+
+TEST_CASE("reproduce ablates sequences of its own and the clips that are there, with settings that exist") {
+  const TemporaryFolder folder;
+  folder.write("data/tum_fr1_xyz/rgb.txt", "");
+  // In place of the program: notes what it is asked to do, and has done it.
+  folder.write("program", R"(#!/usr/bin/env bash
+case $1 in
+  run) echo "$@" >>"$(dirname "$0")/calls.txt"; echo '"status": "completed"' >"$5/metrics.json" ;;
+  synth) echo "$@" >>"$(dirname "$0")/calls.txt" ;;
+  tables) touch "${@: -1}" ;;
+esac
+)");
+  const auto ablate = [&](const std::string& more) {
+    const std::string command = "SUREFIELD='" + (folder / "program").string() +
+                                "' bash '" SUREFIELD_SOURCE_DIR "/tools/reproduce' ablations --data '" +
+                                (folder / "data").string() + "' --out '" + (folder / "out").string() + "' " +
+                                more + " >'" + (folder / "out.txt").string() + "' 2>&1";
+    CHECK(std::system(command.c_str()) == 0);
+    return read_file(folder / "out.txt");
+  };
+  std::filesystem::permissions(folder / "program", std::filesystem::perms::owner_all);
+  CHECK(contains(ablate(""), "== ablations/room0: left out, no such clip in "));
+  const std::string calls = read_file(folder / "calls.txt");
+  CHECK(contains(calls,
+                 "synth --scene apartment --path fast --sensor kinect --frames 80 --seed 1 --size 320x240"));
+  CHECK(contains(calls, "/synth/ablations/office --out " +
+                            (folder / "out/runs/ablations/office/full/seed3").string() +
+                            " --scale 1 --set seed=3 --frames 80\n"));
+  CHECK(contains(calls,
+                 "/ablations/fr1_xyz/no-align/seed1 --scale 0.25 --set seed=1 --set mapping.weight_align=0 "
+                 "--frames 60\n"));
+  SlamSettings settings;
+  ConfigSchema schema;
+  settings.bind(schema);
+  std::istringstream words(calls);
+  int assignments = 0;
+  for (std::string word; words >> word;) {
+    if (word != "--set" || !(words >> word)) continue;
+    CHECK_NOTHROW(schema.set(word));
+    ++assignments;
+  }
+  CHECK(assignments > 4 * 3 * 11);  // each run has its seed, and most a variant
+  // Done before, and again with other sizes.
+  CHECK_FALSE(contains(ablate(""), "\n== ablations/office/full/seed1\n"));
+  CHECK(read_file(folder / "calls.txt") == calls);
+  ablate("--scale 0.5 --frames 9 --seeds 1");
+  CHECK(
+      contains(read_file(folder / "calls.txt"), "/office/full/seed1 --scale 0.5 --set seed=1 --frames 9\n"));
+}
+
+TEST_CASE("ablations mark what lies within the spread, and name what is beyond") {
+  const TemporaryFolder folder;
+  const auto write_runs = [&](const std::string& variant, double ate, double psnr, int seeds = 3) {
+    for (const char* scene : {"office", "corridor"}) {
+      for (int seed = 1; seed <= seeds; ++seed) {
+        const nlohmann::json metrics = {{"status", "completed"},
+                                        {"trajectory", {{"ate_rmse_m", ate + 0.001 * seed}}},
+                                        {"images", {{"psnr_db", psnr + 0.1 * seed}}}};
+        folder.write(fmt::format("runs/ablations/{}/{}/seed{}/metrics.json", scene, variant, seed),
+                     metrics.dump());
+      }
+    }
+  };
+  const auto tables = [&] {
+    const Outcome outcome =
+        surefield_command({"tables", "ablations", "--runs", folder / "runs", "--published",
+                           SUREFIELD_SOURCE_DIR "/tools/published.csv", "--out", folder / "tables.md"},
+                          folder.path());
+    REQUIRE_MESSAGE(outcome.code == 0, outcome.err);
+    return read_file(folder / "tables.md");
+  };
+  write_runs("full", 0.010, 30);
+  write_runs("no-align", 0.0113, 29);     // 1.3 mm of a spread of 1.4, and 1 dB of 0.14
+  write_runs("no-variance", 0.0085, 30);  // 1.5 mm, and nothing
+  write_runs("tracking-adam", 0.012, 31, 1);
+  // A clip that was run with some variants alone takes no part.
+  folder.write("runs/ablations/room0/no-align/seed1/metrics.json",
+               R"({"status": "completed", "trajectory": {"ate_rmse_m": 5}})");
+  const std::string text = tables();
+  CHECK(contains(text, "Mean over office, corridor."));
+  CHECK(contains(text, "| variant | ATE RMSE [cm] | PSNR [dB] | Depth L1 [cm] | ATE RMSE [cm], office |"));
+  CHECK(row_of(text, "Ablations", "**full**") ==
+        "| **full** | 1.20 ± 0.10 | 30.20 ± 0.10 | - | 1.20 ± 0.10 | 1.20 ± 0.10 |");
+  CHECK(row_of(text, "Ablations", "**without L_align**") ==
+        "| **without L_align** | ≈ 1.33 ± 0.10 | 29.20 ± 0.10 | - | ≈ 1.33 ± 0.10 | ≈ 1.33 ± 0.10 |");
+  CHECK(row_of(text, "Ablations", "**without L_var**") ==
+        "| **without L_var** | 1.05 ± 0.10 | ≈ 30.20 ± 0.10 | - | 1.05 ± 0.10 | 1.05 ± 0.10 |");
+  CHECK(row_of(text, "Ablations", "**tracking by Adam**") ==
+        "| **tracking by Adam** | 1.30 | 31.10 | - | 1.30 | 1.30 |");
+  CHECK(contains(text, "\nBetter than full beyond the spread: without L_var (ATE RMSE [cm]).\n"));
+  CHECK(contains(text, "\nWorse than full beyond the spread: without L_align (PSNR [dB]).\n"));
+
+  std::filesystem::remove_all(folder / "runs/ablations");
+  write_runs("full", 0.010, 30, 1);
+  const std::string one = tables();
+  CHECK(contains(one, "One seed does not tell a difference from chance"));
+  CHECK_FALSE(contains(one, "beyond the spread"));
 }
 
 TEST_CASE("reproduce explains itself and refuses what it does not know") {
