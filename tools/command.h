@@ -35,6 +35,7 @@ void add_mesh(CLI::App& program, Action& action);
 void add_synth(CLI::App& program, Action& action);
 void add_places(CLI::App& program, Action& action);
 void add_vocabulary(CLI::App& program, Action& action);
+void add_basin(CLI::App& program, Action& action);
 void add_bench(CLI::App& program, Action& action);
 
 /// What --format of a dataset may be: "auto" and dataset_formats().

@@ -39,6 +39,7 @@ void add_commands(CLI::App& program, surefield::Action& action) {
   surefield::add_synth(program, action);
   surefield::add_places(program, action);
   surefield::add_vocabulary(program, action);
+  surefield::add_basin(program, action);
   surefield::add_bench(program, action);
   surefield::add_devices(program, action);
 }
