@@ -101,7 +101,7 @@ void SceneSteps::render(Outputs outputs) {
 void SceneSteps::render_and_go_back(Outputs outputs) {
   rasteriser_.record_forward(recorder_, map_, view(), outputs);
   if (outputs == Outputs::All)
-    rasteriser_.record_backward(recorder_, map_, view(), 0.1f);
+    rasteriser_.record_backward(recorder_, map_, view(), {.weight = 0.1f});
   else
     rasteriser_.record_backward_pose(recorder_, map_, view(), outputs);
   recorder_.submit();

@@ -16,7 +16,7 @@ struct alignas(64) CpuTile {
     float x, y;        ///< centre, pixels
     float xx, xy, yy;  ///< log2 of exp(-d^T conic d / 2), by dx dx, dx dy and dy dy
     float log_opacity;
-    float red, green, blue, depth;
+    float red, green, blue, depth, slope_x, slope_y;
   };
 
   // Pixels; one that has stopped has a transmittance of 0. Arrays that lie a multiple of 4096 bytes apart
@@ -50,7 +50,9 @@ Stamp stamp_of(const glsl::Splat& s) {
           s.colour.x,
           s.colour.y,
           s.colour.z,
-          s.depth};
+          s.depth,
+          s.slope.x,
+          s.slope.y};
 }
 
 #define SUREFIELD_ALWAYS_INLINE inline __attribute__((always_inline))
@@ -83,7 +85,7 @@ SUREFIELD_ALWAYS_INLINE void blend_stamp(const Stamp s, std::size_t count, CpuTi
     const float weight = goes_on * share;
     t.transmittance[k] = goes_on * left;
     t.opacity[k] += weight;
-    t.depth[k] += weight * s.depth;
+    t.depth[k] += weight * (s.depth + s.slope_x * dx + s.slope_y * dy);
     t.red[k] += weight * s.red;
     t.green[k] += weight * s.green;
     t.blue[k] += weight * s.blue;

@@ -10,7 +10,7 @@ namespace surefield {
 
 namespace {
 
-constexpr const char* kNothing = "-";
+constexpr const char* kNoValue = "-";
 
 /// A column: a metric in one scene, or its mean over several.
 struct ComparisonColumn {
@@ -72,7 +72,7 @@ std::string verdict_lines(const TableSpec& spec, const OwnResults& results, cons
 std::string cell(const ComparisonColumn& column, const OwnResults& results, const TableVariant& variant,
                  const TableVariant& baseline) {
   const auto value = results.mean(variant, *column.metric, column.scenes);
-  if (!value) return kNothing;
+  if (!value) return kNoValue;
   const std::string text = value->text(column.metric->decimals);
   if (&variant == &baseline) return text;
   const Verdict verdict = judge(*column.metric, value, results.mean(baseline, *column.metric, column.scenes));

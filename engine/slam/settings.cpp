@@ -21,6 +21,11 @@ void bind_tracking(ConfigSchema& schema, TrackingSettings& tracking) {
              "gauss-newton: renders that a frame is aligned to, at most");
   schema.add("tracking.balance", &tracking.balance, kWeight,
              "gauss-newton: weight of the geometric residuals beside the photometric ones");
+  schema.add("tracking.references", &tracking.references, Range{0, 4},
+             "gauss-newton: keyframes of the window whose own images a frame is aligned to beside the "
+             "render, the newest first; 0: the render alone");
+  schema.add("tracking.reference_weight", &tracking.reference_weight, kWeight,
+             "gauss-newton: weight of each of them beside the render");
   schema.add("tracking.iterations", &tracking.iterations, Range{1, 100000}, "adam: steps per frame, at most");
   schema.add("tracking.rate_rotation", &tracking.rate_rotation, kRate, "adam: step of the rotation, radians");
   schema.add("tracking.rate_translation", &tracking.rate_translation, kRate,
@@ -55,6 +60,8 @@ void bind_mapping(ConfigSchema& schema, MappingSettings& mapping) {
              "weight of the difference between blended and median depth");
   schema.add("mapping.weight_isotropy", &mapping.weight_isotropy, kWeight,
              "weight of the penalty on elongated Gaussians");
+  schema.add("mapping.isotropy_epsilon", &mapping.isotropy_epsilon, Range{1, 1e6},
+             "that penalty begins where the largest scale is so many times the smallest");
   schema.add("mapping.weight_variance", &mapping.weight_variance, kWeight,
              "weight of the depth variance along a ray (the uncertainty)");
   schema.add("mapping.uncertainty_above", &mapping.uncertainty_above, kFactor,
@@ -101,6 +108,8 @@ void bind_spawn(ConfigSchema& schema, SpawnSettings& spawn) {
   schema.add("spawn.opacity", &spawn.opacity, Range{0.005, 0.99}, "opacity at birth");
   schema.add("spawn.footprint", &spawn.footprint, Range{0.01, 100},
              "radius at birth, in pixels at the Gaussian's depth");
+  schema.add("spawn.thickness", &spawn.thickness, Range{0.01, 1},
+             "thickness at birth along the normal of the sensor's surface, in radii; 1: a sphere");
 }
 
 void bind_keyframes(ConfigSchema& schema, KeyframeSettings& keyframes) {
@@ -141,6 +150,9 @@ void SlamSettings::bind(ConfigSchema& schema) {
   schema.add("mapping_iterations", &mapping_iterations, kSteps, "mapping steps per keyframe");
   schema.add("first_tracking_iterations", &first_tracking_iterations, Range{1, 100000},
              "adam: steps of the first tracked frame, at most");
+  schema.add("depth_model", &depth_model,
+             Choices<DepthModel>{{"centre", DepthModel::Centre}, {"plane", DepthModel::Plane}},
+             "depth of a Gaussian over its footprint: that of its centre, or that of a plane through it");
   bind_tracking(schema, tracking);
   bind_mapping(schema, mapping);
   bind_keyframes(schema, keyframes);

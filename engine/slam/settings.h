@@ -28,6 +28,7 @@ struct SpawnSettings {
       50;  ///< also where the map lies behind the sensor depth by so many median errors; 0: never
   double opacity = 0.5;    ///< at birth
   double footprint = 1.0;  ///< radius at birth, in pixels at its depth
+  double thickness = 0.2;  ///< along the surface's normal, in radii; 1: a sphere
 };
 
 /// When tracking counts as lost.
@@ -44,6 +45,7 @@ struct SlamSettings {
   int first_iterations = 100;           ///< mapping steps on the first frame
   int mapping_iterations = 40;          ///< mapping steps per keyframe
   int first_tracking_iterations = 100;  ///< tracking steps of the first tracked frame
+  DepthModel depth_model = DepthModel::Plane;
   TrackingSettings tracking;
   MappingSettings mapping;
   DensifySettings densify;

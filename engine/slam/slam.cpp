@@ -50,6 +50,7 @@ struct Slam::Implementation {
   std::vector<TrackedFrame> frames;
   std::vector<FrameReport> reports;
   std::deque<double> recent_losses;
+  std::vector<int> reference_keyframes;                 ///< whose images frames are aligned to beside the map
   std::optional<std::pair<Frame, FrameHandle>> newest;  ///< the last frame fed, unless it is a keyframe
   int last_keyframe_frame = 0;                          ///< position among the frames fed
 
@@ -59,7 +60,9 @@ struct Slam::Implementation {
         covisibility(s.keyframes),
         engine(options),
         region(engine, s),
-        random(static_cast<uint32_t>(s.seed)) {}
+        random(static_cast<uint32_t>(s.seed)) {
+    engine.set_depth_model(s.depth_model);
+  }
 
   Pose world_to_frame(std::size_t i) const {
     const TrackedFrame& f = frames[i];
@@ -71,6 +74,13 @@ struct Slam::Implementation {
     const std::size_t n = frames.size();
     if (n < 2) return world_to_frame(n - 1);
     return world_to_frame(n - 1) * world_to_frame(n - 2).inverse() * world_to_frame(n - 1);
+  }
+
+  /// The keyframes whose images the next frame is aligned to beside the map.
+  std::vector<TrackingReference> references() const {
+    std::vector<TrackingReference> references;
+    for (int k : reference_keyframes) references.push_back({keyframes[k].frame, keyframes[k].camera});
+    return references;
   }
 
   void check_size(const Frame& frame) const {
@@ -92,6 +102,7 @@ struct Slam::Implementation {
                        FrameReport& report);
   void add_keyframe(const Frame& frame, FrameHandle handle, const Pose& world_to_camera);
   void map_window(FrameReport& report);
+  void align_to(std::vector<int> members);
   void optimise(const std::vector<int>& order, const std::vector<int>& refined, FrameReport& report);
   void judge(const std::vector<int>& members, FrameReport& report);
   void densify();
@@ -170,6 +181,7 @@ void Slam::Implementation::initialise(const Frame& frame, FrameReport& report) {
   optimise(std::vector<int>(half, 0), {}, report);
   densify();
   optimise(std::vector<int>(settings.first_iterations - half, 0), {}, report);
+  align_to({0});
   report.keyframe = true;
 }
 
@@ -189,7 +201,7 @@ TrackingResult Slam::Implementation::retry(FrameHandle handle, const TrackingSet
   patient.renders *= 2;
   for (const Pose& start : {world_to_frame(frames.size() - 1), keyframes.back().camera.world_to_camera}) {
     if (!looks_lost(best)) break;
-    const TrackingResult other = engine.track(handle, {intrinsics, start}, patient);
+    const TrackingResult other = engine.track(handle, {intrinsics, start}, patient, references());
     ++report.retries;
     report.tracking_iterations += other.iterations;
     report.tracking_ms += other.milliseconds;
@@ -204,7 +216,7 @@ void Slam::Implementation::track(FrameHandle handle, FrameReport& report) {
   TrackingSettings tracking = settings.tracking;
   if (frames.size() == 1)
     tracking.iterations = std::max(tracking.iterations, settings.first_tracking_iterations);
-  TrackingResult result = engine.track(handle, {intrinsics, predict()}, tracking);
+  TrackingResult result = engine.track(handle, {intrinsics, predict()}, tracking, references());
   report.tracking_iterations = result.iterations;
   report.tracking_ms = result.milliseconds;
   if (looks_lost(result)) result = retry(handle, tracking, result, report);
@@ -247,6 +259,14 @@ void Slam::Implementation::map_window(FrameReport& report) {
   densify();
   optimise({middle, order.end()}, refined, report);
   report.world_to_camera = keyframes.back().camera.world_to_camera;
+  align_to(window.members);
+}
+
+/// Takes keyframes of the window, the newest first, as what frames are aligned to beside the map.
+void Slam::Implementation::align_to(std::vector<int> members) {
+  std::reverse(members.begin(), members.end());
+  members.resize(std::min<std::size_t>(members.size(), settings.tracking.references));
+  reference_keyframes = std::move(members);
 }
 
 void Slam::Implementation::optimise(const std::vector<int>& order, const std::vector<int>& refined,

@@ -6,11 +6,13 @@
 #include <utility>
 
 #include "engine/io/median.h"
+#include "engine/slam/surface_normal.h"
 
 namespace surefield {
 
 namespace {
 
+constexpr double kMostStretch = 2;               // of a disc on a surface seen at a slant
 constexpr float kShBase = 0.28209479177387814f;  // the SH basis function of degree 0
 
 bool valid(float depth, double depth_max) {
@@ -28,6 +30,30 @@ double median_depth_error(const Frame& frame, const RenderImages& rendered, cons
   }
   if (errors.empty()) return 0;
   return median(std::move(errors));
+}
+
+/// The shape of a newborn: standard deviations along its axes, metres, and their rotation.
+struct BirthShape {
+  Eigen::Vector3d scales;
+  Eigen::Quaterniond rotation = Eigen::Quaterniond::Identity();
+};
+
+/// A disc on the surface of this normal, seen along `ray`, that covers as much of the image in every
+/// direction as a sphere of this radius; without a normal, the sphere. Both vectors in the camera frame.
+BirthShape birth_shape(const Eigen::Vector3d& ray, const Eigen::Vector3d& normal, double radius,
+                       const SpawnSettings& settings) {
+  BirthShape shape{Eigen::Vector3d::Constant(radius)};
+  if (settings.thickness >= 1 || normal.isZero()) return shape;
+  const double cosine = std::abs(normal.dot(ray.normalized()));
+  const Eigen::Vector3d across = normal.cross(ray);
+  Eigen::Matrix3d axes;
+  axes.col(0) = (across.norm() > 1e-6 * ray.norm() ? across : normal.unitOrthogonal()).normalized();
+  axes.col(2) = normal;
+  axes.col(1) = axes.col(2).cross(axes.col(0));  // the direction in which the surface recedes
+  const double stretch = std::min(1 / std::max(cosine, 1e-3), kMostStretch);
+  shape.scales = radius * Eigen::Vector3d(1, stretch, settings.thickness);
+  shape.rotation = Eigen::Quaterniond(axes);
+  return shape;
 }
 
 }  // namespace
@@ -64,8 +90,11 @@ GaussianCloud spawn_gaussians(const Frame& frame, const Camera& camera, const Re
       const Eigen::Vector3d point(z * (u - k.cx) / k.fx, z * (v - k.cy) / k.fy, z);
       cloud.means.push_back((camera_to_world * point).cast<float>());
       const double radius = settings.footprint * z * 2 / (k.fx + k.fy);
-      cloud.log_scales.push_back(Eigen::Vector3f::Constant(static_cast<float>(std::log(radius))));
-      cloud.rotations.emplace_back(1.0f, 0.0f, 0.0f, 0.0f);
+      const BirthShape shape =
+          birth_shape(point, surface_normal(frame, k, u, v, depth_max), radius, settings);
+      cloud.log_scales.push_back(shape.scales.array().log().matrix().cast<float>());
+      const Eigen::Quaternionf q((camera_to_world.rotation() * shape.rotation).cast<float>());
+      cloud.rotations.emplace_back(q.w(), q.x(), q.y(), q.z());
       cloud.opacity_logits.push_back(logit);
       cloud.uncertainty.push_back(0.0f);
       const cv::Vec3b& rgb = frame.colour.at<cv::Vec3b>(v, u);

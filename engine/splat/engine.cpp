@@ -107,6 +107,10 @@ uint32_t SplatEngine::device_size() const {
   return implementation_->map.size();
 }
 
+void SplatEngine::set_depth_model(DepthModel model) {
+  implementation_->rasteriser.lists.depth_model = model;
+}
+
 void SplatEngine::set_map_budget(uint64_t bytes) {
   implementation_->blocks.set_budget(bytes);
 }
@@ -138,13 +142,21 @@ RenderImages SplatEngine::render_whole(const Camera& camera) const {
   return implementation_->rasteriser.render(whole, camera);
 }
 
-TrackingResult SplatEngine::track(FrameHandle frame, const Camera& start, const TrackingSettings& settings) {
+TrackingResult SplatEngine::track(FrameHandle frame, const Camera& start, const TrackingSettings& settings,
+                                  std::span<const TrackingReference> references) {
   Implementation& i = *implementation_;
-  const auto track_with = [&](auto& tracker) {
-    return tracker.track(i.rasteriser, i.tracking_loss, i.map, i.frames.on_device(frame), start, settings);
-  };
-  return settings.method == TrackingMethod::Adam ? track_with(i.adam_tracker)
-                                                 : track_with(i.gauss_newton_tracker);
+  if (settings.method == TrackingMethod::Adam)
+    return i.adam_tracker.track(i.rasteriser, i.tracking_loss, i.map, i.frames.on_device(frame), start,
+                                settings);
+  std::vector<Camera> cameras;
+  for (const TrackingReference& reference : references) {
+    if (!i.gauss_newton_tracker.holds(cameras.size(), reference.frame))
+      i.gauss_newton_tracker.hold(cameras.size(), reference.frame, i.frames.on_device(reference.frame),
+                                  reference.camera.intrinsics);
+    cameras.push_back(reference.camera);
+  }
+  return i.gauss_newton_tracker.track(i.rasteriser, i.tracking_loss, i.map, i.frames.on_device(frame), start,
+                                      settings, cameras);
 }
 
 MappingResult SplatEngine::optimise(std::span<MappingView> views, std::span<const int> order,

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "engine/splat/camera.h"
+#include "engine/splat/depth_model.h"
 #include "engine/splat/gaussian_cloud.h"
 #include "engine/splat/pose_gradient.h"
 #include "engine/splat/render_images.h"
@@ -43,9 +44,11 @@ enum class TrackingMethod { GaussNewton, Adam };
 /// How a pose is tracked (paper eq. 19 and 20).
 struct TrackingSettings {
   TrackingMethod method = TrackingMethod::GaussNewton;
-  int renders = 2;       ///< Gauss-Newton: times that the map is rendered and aligned, at most
-  double balance = 0.2;  ///< Gauss-Newton: weight of the geometric residuals beside the photometric ones
-  int iterations = 35;   ///< Adam's steps, at most
+  int renders = 2;     ///< Gauss-Newton: times that the map is rendered and aligned, at most
+  double balance = 2;  ///< Gauss-Newton: weight of the geometric residuals beside the photometric ones
+  int references = 4;  ///< Gauss-Newton: keyframes whose images a frame is aligned to, at most
+  double reference_weight = 1;        ///< Gauss-Newton: weight of each of them beside the render
+  int iterations = 35;                ///< Adam's steps, at most
   double rate_rotation = 0.0015;      ///< Adam's step, radians
   double rate_translation = 0.00215;  ///< Adam's step, metres
   double weight_colour = 1.0;         ///< lambda_1
@@ -56,6 +59,12 @@ struct TrackingSettings {
   DepthKind depth = DepthKind::Normalised;
   PoseGradientKind pose_gradient = PoseGradientKind::Full;
   double stop_below = 2e-5;  ///< stop when steps of all pose numbers have become smaller (radians, metres)
+};
+
+/// A keyframe whose images a frame is aligned to beside the map, with its camera.
+struct TrackingReference {
+  FrameHandle frame = 0;
+  Camera camera;
 };
 
 /// What tracking found.
@@ -74,6 +83,7 @@ struct MappingSettings {
   double weight_depth = 0.8;
   double weight_align = 0.5;
   double weight_isotropy = 0.1;
+  double isotropy_epsilon = 5;  ///< L_iso begins where the largest scale is so many times the smallest
   double weight_variance = 0.5;
   DepthKind depth = DepthKind::Alpha;
   double uncertainty_above = 0.025;  ///< tau, m^2: Gaussians above lose their opacity; 0: none is judged
@@ -82,9 +92,9 @@ struct MappingSettings {
   double rate_log_scale = 1e-4;      ///< times extent
   double rate_rotation = 1e-3;
   double rate_opacity = 5e-2;
-  double rate_colour = 2.5e-3;            ///< SH of degree 0; the higher ones move at a twentieth of it
-  double rate_pose_rotation = 0.0005;     ///< radians
-  double rate_pose_translation = 0.0007;  ///< metres
+  double rate_colour = 2.5e-3;       ///< SH of degree 0; the higher ones move at a twentieth of it
+  double rate_pose_rotation = 0;     ///< radians
+  double rate_pose_translation = 0;  ///< metres
   PoseGradientKind pose_gradient = PoseGradientKind::Full;
 };
 
@@ -154,6 +164,9 @@ class SplatEngine {
   /// Gaussians on the device; see set_map_budget().
   uint32_t device_size() const;
 
+  /// Sets the depth of a Gaussian over its footprint, of everything from here on; at first it is a plane's.
+  void set_depth_model(DepthModel model);
+
   /// Sets how much device memory the Gaussians may take, with all that is kept for each of them. The map is
   /// then in two parts: what focus() and recall() ask for is on the device, and everything else waits in host
   /// memory, as it was. All verbs but map(), size() and render_whole() work on the part on the device.
@@ -176,7 +189,8 @@ class SplatEngine {
   RenderImages render_whole(const Camera& camera) const;
 
   /// Finds the pose of a frame in the fixed map, starting from that of `start`.
-  TrackingResult track(FrameHandle frame, const Camera& start, const TrackingSettings& settings);
+  TrackingResult track(FrameHandle frame, const Camera& start, const TrackingSettings& settings,
+                       std::span<const TrackingReference> references = {});
 
   /// Optimises the map over views[order[0]], views[order[1]], ..., one step each, and the poses of the views
   /// that ask for it. `extent` (metres) scales the rates of means and scales.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <limits>
+#include <utility>
 
 namespace surefield {
 
@@ -17,8 +18,7 @@ constexpr uint32_t kStrides[] = {3, 1, 1};
 // Tracking ends when an alignment has moved the camera by less, radians and metres.
 constexpr double kStill = 3e-4;
 // Where the scales of the residuals start: intensity (0 to 1), and distance over depth.
-constexpr float kFirstScaleColour = 0.1f;
-constexpr float kFirstScaleDepth = 0.02f;
+constexpr glsl::AlignScales kFirstScales{.colour = 0.1f * 0.1f, .depth = 0.02f * 0.02f};
 
 /// How far the last alignment has moved the camera: radians (to first order) or metres, the larger.
 double motion_of(const glsl::AlignState& state) {
@@ -27,10 +27,22 @@ double motion_of(const glsl::AlignState& state) {
   return std::max(turn.norm() / 2, Eigen::Vector3d(t.x, t.y, t.z).norm());
 }
 
+template <std::size_t Count>
+std::array<gpu::Array<glsl::AlignPoint>, Count> make_arrays(gpu::Device& device) {
+  const auto make = [&](auto) { return gpu::Array<glsl::AlignPoint>(device, "keyframe points"); };
+  return [&]<std::size_t... I>(std::index_sequence<I...>) {
+    return std::array{make(I)...};
+  }
+  (std::make_index_sequence<Count>());
+}
+
 }  // namespace
 
 GaussNewtonTracker::Level::Level(gpu::Device& device)
-    : sensor(device, "sensor level"), rendered(device, "rendered level"), points(device, "rendered points") {}
+    : sensor(device, "sensor level"),
+      rendered(device, "rendered level"),
+      points(device, "rendered points"),
+      reference_points(make_arrays<kReferences>(device)) {}
 
 GaussNewtonTracker::GaussNewtonTracker(gpu::Device& device)
     : device_(device),
@@ -40,7 +52,8 @@ GaussNewtonTracker::GaussNewtonTracker(gpu::Device& device)
       rendered_normalised_(device, gpu::kWorkgroup, {.NORMALISED_DEPTH = 1}),
       halve_pass_(device, gpu::kWorkgroup),
       points_pass_(device, gpu::kWorkgroup),
-      sums_pass_(device, gpu::kWorkgroup),
+      sums_pass_(device, gpu::kWorkgroup, {.FROM_KEYFRAME = 0}),
+      keyframe_sums_pass_(device, gpu::kWorkgroup, {.FROM_KEYFRAME = 1}),
       begin_pass_(device, device.limits().subgroup_size),
       step_pass_(device, gpu::kWorkgroup),
       camera_(device, "tracked camera"),
@@ -57,7 +70,8 @@ void GaussNewtonTracker::resize(gpu::Recorder& recorder, const ImageSize& size) 
     recorder.reserve(level.points, now.pixels());
     now = {now.width / 2, now.height / 2};
   }
-  recorder.reserve(partial_sums_, subgroups_ * (size.pixels() / (gpu::kWorkgroup * glsl::ALIGN_STRIP) + 1));
+  recorder.reserve(partial_sums_, glsl::ALIGN_SOURCES * subgroups_ *
+                                      (size.pixels() / (gpu::kWorkgroup * glsl::ALIGN_STRIP) + 1));
 }
 
 void GaussNewtonTracker::record_halves(gpu::Recorder& recorder, gpu::Array<glsl::vec2> Level::*image) {
@@ -88,12 +102,31 @@ void GaussNewtonTracker::record_points(gpu::Recorder& recorder, const Rasteriser
                      .image = levels_[0].rendered},
                     {.pixels = pixels, .minimum_opacity = static_cast<float>(settings.minimum_opacity)});
   record_halves(recorder, &Level::rendered);
+  for (uint32_t i = 0; i < kLevels; ++i) record_level(recorder, i, levels_[i].rendered, levels_[i].points);
+}
+
+void GaussNewtonTracker::record_level(gpu::Recorder& recorder, uint32_t index,
+                                      const gpu::Array<glsl::vec2>& image,
+                                      const gpu::Array<glsl::AlignPoint>& points) {
+  const ImageSize& size = levels_[index].size;
+  recorder.dispatch(points_pass_, points_pass_.groups(size.pixels()),
+                    {.camera = camera_, .image = image, .points = points},
+                    {.width = size.width, .height = size.height, .level = index});
+}
+
+void GaussNewtonTracker::hold(std::size_t place, FrameHandle handle, const SensorFrame& frame,
+                              const Intrinsics& intrinsics) {
+  const glsl::CameraState camera = to_device(Camera{intrinsics});
+  camera_.upload(std::span(&camera, 1));
+  gpu::Recorder recorder(device_);
+  resize(recorder, frame.size);
+  record_sensor(recorder, frame);
   for (uint32_t i = 0; i < kLevels; ++i) {
-    const Level& level = levels_[i];
-    recorder.dispatch(points_pass_, points_pass_.groups(level.size.pixels()),
-                      {.camera = camera_, .image = level.rendered, .points = level.points},
-                      {.width = level.size.width, .height = level.size.height, .level = i});
+    recorder.reserve(levels_[i].reference_points[place], levels_[i].size.pixels());
+    record_level(recorder, i, levels_[i].sensor, levels_[i].reference_points[place]);
   }
+  recorder.submit();
+  held_[place] = handle;
 }
 
 void GaussNewtonTracker::record_begin(gpu::Recorder& recorder, const Rasteriser& rasteriser,
@@ -108,38 +141,49 @@ void GaussNewtonTracker::record_begin(gpu::Recorder& recorder, const Rasteriser&
 }
 
 void GaussNewtonTracker::record_step(gpu::Recorder& recorder, const Rasteriser& rasteriser, int index,
-                                     const TrackingSettings& settings) {
+                                     std::size_t references, const TrackingSettings& settings) {
   const Level& level = levels_[index];
   if (level.size.width < 2 || level.size.height < 2) return;  // nothing to interpolate between
   const uint64_t samples = (level.size.pixels() + kStrides[index] - 1) / kStrides[index];
   const auto strips = static_cast<uint32_t>((samples + glsl::ALIGN_STRIP - 1) / glsl::ALIGN_STRIP);
-  const uint32_t groups = sums_pass_.groups(strips);
+  const uint32_t groups = sums_pass_.groups(strips), count = groups * subgroups_;
+  passes::align_sums::Params params{.width = level.size.width,
+                                    .height = level.size.height,
+                                    .level = static_cast<uint32_t>(index),
+                                    .strips = strips,
+                                    .stride = kStrides[index],
+                                    .weight = 1,
+                                    .balance = static_cast<float>(settings.balance),
+                                    .source = 0,
+                                    .first = 0};
   recorder.dispatch(
       sums_pass_, groups,
       {.state = state_, .points = level.points, .sensor = level.sensor, .partial_sums = partial_sums_},
-      {.width = level.size.width,
-       .height = level.size.height,
-       .level = static_cast<uint32_t>(index),
-       .strips = strips,
-       .stride = kStrides[index],
-       .balance = static_cast<float>(settings.balance)});
+      params);
+  params.weight = static_cast<float>(settings.reference_weight);
+  for (const auto& points : std::span(level.reference_points).first(references)) {
+    ++params.source;
+    params.first += count;
+    recorder.dispatch(
+        keyframe_sums_pass_, groups,
+        {.state = state_, .points = points, .sensor = level.sensor, .partial_sums = partial_sums_}, params);
+  }
   recorder.dispatch(
       step_pass_, 1,
       {.status = rasteriser.lists.status, .partial_sums = partial_sums_, .state = state_, .camera = camera_},
-      {.count = groups * subgroups_});
+      {.count = count, .sources = 1 + static_cast<uint32_t>(references)});
 }
 
 TrackingResult GaussNewtonTracker::track(Rasteriser& rasteriser, TrackingLoss& loss, const GaussianMap& map,
                                          const SensorFrame& frame, const Camera& start,
-                                         const TrackingSettings& settings) {
+                                         const TrackingSettings& settings,
+                                         std::span<const Camera> references) {
   const auto begin = std::chrono::steady_clock::now();
   const glsl::CameraState first = to_device(start);
   camera_.upload(std::span(&first, 1));
-  glsl::AlignState state{.base = first,
-                         .variance_colour = kFirstScaleColour * kFirstScaleColour,
-                         .variance_depth = kFirstScaleDepth * kFirstScaleDepth,
-                         .best_camera = first,
-                         .best_loss = std::numeric_limits<float>::max()};
+  glsl::AlignState state{.base = first, .best_camera = first, .best_loss = std::numeric_limits<float>::max()};
+  for (glsl::AlignScales& scales : state.scales) scales = kFirstScales;
+  for (std::size_t i = 0; i < references.size(); ++i) state.references[i] = to_device(references[i]);
   state_.upload(std::span(&state, 1));
 
   gpu::Recorder recorder(device_);
@@ -154,9 +198,11 @@ TrackingResult GaussNewtonTracker::track(Rasteriser& rasteriser, TrackingLoss& l
       record_points(recorder, rasteriser, settings);
       if (render == 0)
         for (int level = kLevels - 1; level >= 0; --level)
-          for (int i = 0; i < kFirstSteps[level]; ++i) record_step(recorder, rasteriser, level, settings);
+          for (int i = 0; i < kFirstSteps[level]; ++i)
+            record_step(recorder, rasteriser, level, references.size(), settings);
       else
-        for (int i = 0; i < kLaterSteps; ++i) record_step(recorder, rasteriser, 0, settings);
+        for (int i = 0; i < kLaterSteps; ++i)
+          record_step(recorder, rasteriser, 0, references.size(), settings);
     }
     recorder.submit();
     if (rasteriser.lists.settle() == 0) continue;  // there was too little room, and now there is enough

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <array>
+#include <optional>
+#include <span>
 
 #include "engine/splat/tracking_loss.h"
 #include "shaders/shared/align_begin.h"
@@ -22,9 +24,17 @@ class GaussNewtonTracker {
  public:
   explicit GaussNewtonTracker(gpu::Device& device);
 
-  /// Tracks `frame` from the pose of `start`.
+  /// Keyframes whose images frames can be aligned to beside the map have places.
+  static constexpr std::size_t kReferences = glsl::ALIGN_REFERENCES;
+  /// Whether a place holds the images of this frame.
+  bool holds(std::size_t place, FrameHandle frame) const { return held_[place] == frame; }
+  /// Puts the images of a frame, taken with these intrinsics, in a place.
+  void hold(std::size_t place, FrameHandle handle, const SensorFrame& frame, const Intrinsics& intrinsics);
+
+  /// Tracks `frame` from the pose of `start`; `references` are the cameras of the frames in the first places.
   TrackingResult track(Rasteriser& rasteriser, TrackingLoss& loss, const GaussianMap& map,
-                       const SensorFrame& frame, const Camera& start, const TrackingSettings& settings);
+                       const SensorFrame& frame, const Camera& start, const TrackingSettings& settings,
+                       std::span<const Camera> references = {});
 
  private:
   static constexpr int kLevels = 3;
@@ -35,16 +45,19 @@ class GaussNewtonTracker {
     gpu::Array<glsl::vec2> sensor;    ///< intensity, depth
     gpu::Array<glsl::vec2> rendered;  ///< intensity, depth
     gpu::Array<glsl::AlignPoint> points;
+    std::array<gpu::Array<glsl::AlignPoint>, kReferences> reference_points;  ///< of keyframes' images
     explicit Level(gpu::Device& device);
   };
 
   void resize(gpu::Recorder& recorder, const ImageSize& size);
-  void record_halves(gpu::Recorder& recorder, gpu::Array<glsl::vec2> Level::*image);
   void record_sensor(gpu::Recorder& recorder, const SensorFrame& frame);
+  void record_halves(gpu::Recorder& recorder, gpu::Array<glsl::vec2> Level::*image);
+  void record_level(gpu::Recorder& recorder, uint32_t index, const gpu::Array<glsl::vec2>& image,
+                    const gpu::Array<glsl::AlignPoint>& points);
   void record_points(gpu::Recorder& recorder, const Rasteriser& rasteriser, const TrackingSettings& settings);
   void record_begin(gpu::Recorder& recorder, const Rasteriser& rasteriser, const TrackingLoss& loss,
                     const SensorFrame& frame, const TrackingSettings& settings);
-  void record_step(gpu::Recorder& recorder, const Rasteriser& rasteriser, int level,
+  void record_step(gpu::Recorder& recorder, const Rasteriser& rasteriser, int level, std::size_t references,
                    const TrackingSettings& settings);
 
   gpu::Device& device_;
@@ -55,12 +68,14 @@ class GaussNewtonTracker {
   gpu::Pass<passes::align_halve> halve_pass_;
   gpu::Pass<passes::align_points> points_pass_;
   gpu::Pass<passes::align_sums> sums_pass_;
+  gpu::Pass<passes::align_sums> keyframe_sums_pass_;
   gpu::Pass<passes::align_begin> begin_pass_;
   gpu::Pass<passes::align_step> step_pass_;
   gpu::Array<glsl::CameraState> camera_;
   gpu::Array<glsl::AlignState> state_;
   gpu::Array<glsl::AlignSums> partial_sums_;
   std::array<Level, kLevels> levels_;
+  std::array<std::optional<FrameHandle>, kReferences> held_;
 };
 
 }  // namespace surefield

@@ -141,7 +141,8 @@ void Mapper::record_step(gpu::Recorder& recorder, Rasteriser& rasteriser, Gaussi
   rasteriser.pose_gradient_kind = settings.pose_gradient;
   record_loss(recorder, rasteriser, map, frame, camera.camera, settings);
   rasteriser.record_backward(recorder, map, {frame.size, camera.camera, frame.depth},
-                             static_cast<float>(settings.weight_isotropy));
+                             {.weight = static_cast<float>(settings.weight_isotropy),
+                              .epsilon = static_cast<float>(settings.isotropy_epsilon)});
   record_update(recorder, rasteriser, map, settings, extent);
   if (!refine_pose) return;
   recorder.dispatch(refine_pose_, 1,

@@ -70,24 +70,27 @@ Rasteriser::Rasteriser(gpu::Device& device, const TileShape& shape)
       pose_partials_(device, "partial pose gradients") {}
 
 Rasteriser::BackwardPasses& Rasteriser::backward_passes(int sh_degree) {
-  auto& made = backward_passes_[sh_degree][pose_gradient_kind == PoseGradientKind::Full];
+  const bool full = pose_gradient_kind == PoseGradientKind::Full;
+  const bool plane = lists.depth_model == DepthModel::Plane;
+  auto& made = backward_passes_[sh_degree][full][plane];
   if (made) return *made;
   const TileShape& s = lists.shape();
-  passes::blend_backward_pose::Constants constants{
-      .TILE_W = s.width,
-      .TILE_H = s.height,
-      .LANES = s.lanes,
-      .SH_DEGREE = static_cast<uint32_t>(sh_degree),
-      .FULL_POSE_GRADIENT = pose_gradient_kind == PoseGradientKind::Full ? 1u : 0u,
-      .WITH_GEOMETRY = 0};
+  passes::blend_backward_pose::Constants constants{.TILE_W = s.width,
+                                                   .TILE_H = s.height,
+                                                   .LANES = s.lanes,
+                                                   .SH_DEGREE = static_cast<uint32_t>(sh_degree),
+                                                   .FULL_POSE_GRADIENT = full ? 1u : 0u,
+                                                   .WITH_GEOMETRY = 0,
+                                                   .PLANE_DEPTH = plane ? 1u : 0u};
   auto all = constants;
   all.WITH_GEOMETRY = 1;
-  made.reset(new BackwardPasses{
-      {device_, s.lanes, constants},
-      {device_, s.lanes, all},
-      {device_,
-       gpu::kWorkgroup,
-       {.SH_DEGREE = constants.SH_DEGREE, .FULL_POSE_GRADIENT = constants.FULL_POSE_GRADIENT}}});
+  made.reset(new BackwardPasses{{device_, s.lanes, constants},
+                                {device_, s.lanes, all},
+                                {device_,
+                                 gpu::kWorkgroup,
+                                 {.SH_DEGREE = constants.SH_DEGREE,
+                                  .FULL_POSE_GRADIENT = constants.FULL_POSE_GRADIENT,
+                                  .PLANE_DEPTH = constants.PLANE_DEPTH}}});
   return *made;
 }
 
@@ -112,7 +115,7 @@ void Rasteriser::record_forward(gpu::Recorder& recorder, const GaussianMap& map,
 }
 
 void Rasteriser::record_backward(gpu::Recorder& recorder, GaussianMap& map, const View& view,
-                                 float isotropy_weight) {
+                                 const IsotropyTerm& isotropy) {
   const uint32_t subgroups = gpu::kWorkgroup / lists.shape().lanes;
   const uint64_t groups = map.size() / gpu::kWorkgroup + 1;
   recorder.reserve(instance_gradients_, lists.instance_capacity());
@@ -149,7 +152,7 @@ void Rasteriser::record_backward(gpu::Recorder& recorder, GaussianMap& map, cons
                               .pose_partials = pose_partials_,
                               .status = lists.status,
                               .densification = map.densification},
-                             {.weight_isotropy = isotropy_weight, .isotropy_epsilon = 1.0f});
+                             {.weight_isotropy = isotropy.weight, .isotropy_epsilon = isotropy.epsilon});
   recorder.dispatch(
       reduce_pose_, 1,
       {.visible_count = lists.visible_count, .pose_partials = pose_partials_, .pose_gradient = pose_gradient},

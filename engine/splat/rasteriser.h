@@ -30,6 +30,12 @@ struct View {
   float uncertainty_above = std::numeric_limits<float>::infinity();
 };
 
+/// L_iso (paper eq. 17): its weight, and the ratio of the largest scale to the smallest that is free.
+struct IsotropyTerm {
+  float weight = 0;
+  float epsilon = 1;
+};
+
 /// Which outputs a forward pass computes: colour, opacity and D_alpha always.
 enum class Outputs { ColourDepth, All };
 
@@ -44,8 +50,9 @@ class Rasteriser {
   void record_forward(gpu::Recorder& recorder, const GaussianMap& map, const View& view, Outputs outputs);
 
   /// After record_forward() of the same view with Outputs::All, and with pixel_upstream filled: gradients of
-  /// every visible Gaussian and of the pose. `isotropy_weight` adds that of w L_iso (paper eq. 17).
-  void record_backward(gpu::Recorder& recorder, GaussianMap& map, const View& view, float isotropy_weight);
+  /// every visible Gaussian and of the pose. `isotropy` adds that of w L_iso (paper eq. 17).
+  void record_backward(gpu::Recorder& recorder, GaussianMap& map, const View& view,
+                       const IsotropyTerm& isotropy);
 
   /// After record_forward() of the same view and `outputs`, with pixel_upstream filled: the gradient of the
   /// pose alone; nothing is written per Gaussian. Gradients of outputs that were not computed are left out.
@@ -86,7 +93,8 @@ class Rasteriser {
     gpu::Pass<passes::blend_backward_pose> blend_pose_all;
     gpu::Pass<passes::project_backward> project;
   };
-  std::unique_ptr<BackwardPasses> backward_passes_[4][2];  ///< per SH degree and kind, made when first needed
+  /// Per SH degree, kind of the pose's gradient and depth model, made when first needed.
+  std::unique_ptr<BackwardPasses> backward_passes_[4][2][2];
 
   gpu::Array<glsl::SplatGradient> instance_gradients_;
   gpu::Array<glsl::PoseGradient> pose_partials_;

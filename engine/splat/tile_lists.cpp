@@ -58,11 +58,13 @@ TileLists::TileLists(gpu::Device& device, const TileShape& shape)
 }
 
 gpu::Pass<passes::project_splats>& TileLists::projection(int sh_degree) {
-  auto& pass = project_[sh_degree];
+  const bool plane = depth_model == DepthModel::Plane;
+  auto& pass = project_[sh_degree][plane];
   if (!pass)
     pass = std::make_unique<gpu::Pass<passes::project_splats>>(
         device_, gpu::kWorkgroup,
-        passes::project_splats::Constants{shape_.width, shape_.height, static_cast<uint32_t>(sh_degree)});
+        passes::project_splats::Constants{shape_.width, shape_.height, static_cast<uint32_t>(sh_degree),
+                                          plane ? 1u : 0u});
   return *pass;
 }
 

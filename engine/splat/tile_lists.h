@@ -2,6 +2,7 @@
 
 #include "engine/primitives/radix_sort.h"
 #include "engine/primitives/scan.h"
+#include "engine/splat/depth_model.h"
 #include "engine/splat/gaussian_map.h"
 #include "shaders/shared/compact_visible.h"
 #include "shaders/shared/emit_instances.h"
@@ -54,6 +55,8 @@ class TileLists {
   /// Numbers of the last submitted view.
   glsl::RenderStatus read_status() const;
 
+  DepthModel depth_model = DepthModel::Plane;  ///< of every later record()
+
   const TileShape& shape() const { return shape_; }
   uint32_t tiles_x(const ImageSize& size) const { return (size.width + shape_.width - 1) / shape_.width; }
   uint32_t tiles_y(const ImageSize& size) const { return (size.height + shape_.height - 1) / shape_.height; }
@@ -85,7 +88,8 @@ class TileLists {
   uint32_t instance_capacity_ = 0;
   uint32_t gaussians_ = 0;
 
-  std::unique_ptr<gpu::Pass<passes::project_splats>> project_[4];  ///< per SH degree, made when first needed
+  /// Per SH degree and depth model, made when first needed.
+  std::unique_ptr<gpu::Pass<passes::project_splats>> project_[4][2];
   gpu::Pass<passes::compact_visible> compact_;
   gpu::Pass<passes::gather_tile_counts> gather_;
   gpu::Pass<passes::emit_instances> emit_;

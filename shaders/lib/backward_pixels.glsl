@@ -13,9 +13,9 @@ float weight_value(PixelUpstream p, float sensor, vec3 colour, float depth) {
   return value + p.uncertainty * off * off;
 }
 
-/// dL/dz of a Gaussian of this depth with this weight. The median belongs to the one that takes the transmittance from
+/// dL/dz of a Gaussian of this depth at the pixel with this weight. The median belongs to the one that takes the transmittance from
 /// `before` below one half.
-float depth_slope(PixelUpstream p, float sensor, float weight, float depth, float before, float after) {
+float depth_gradient(PixelUpstream p, float sensor, float weight, float depth, float before, float after) {
   if (WITH_GEOMETRY == 0) return weight * p.depth;
   return weight * (p.depth + 2 * p.uncertainty * (depth - sensor)) + (before >= 0.5 && after < 0.5 ? p.median : 0.0);
 }
@@ -48,26 +48,29 @@ bool tile_is_open() {
 /// sums of its own Gaussian. What a caller does not use of them costs nothing.
 SplatGradient visit_batch(Stamp my) {
   const vec2 origin = vec2(lane_origin());
-  SplatGradient total = SplatGradient(0.0, vec2(0), vec3(0), vec3(0), 0.0);
+  SplatGradient total = SplatGradient(0.0, vec2(0), vec3(0), vec3(0), 0.0, vec2(0));
   for (uint group = 0; group < LANES; group += GROUP) {
     float g0[GROUP], gx[GROUP], gy[GROUP], gxx[GROUP], gxy[GROUP], gyy[GROUP];
-    float red[GROUP], green[GROUP], blue[GROUP], depth[GROUP];
+    float red[GROUP], green[GROUP], blue[GROUP], gz[GROUP], gzx[GROUP], gzy[GROUP];
     [[unroll]] for (uint member = 0; member < GROUP; ++member) {
       const Stamp stamp = stamp_from(my, group + member);
       const vec2 d = origin - stamp.centre;
-      g0[member] = gx[member] = gy[member] = gxx[member] = gxy[member] = gyy[member] = depth[member] = 0;
+      g0[member] = gx[member] = gy[member] = gxx[member] = gxy[member] = gyy[member] = 0;
+      gz[member] = gzx[member] = gzy[member] = 0;
       vec3 g_colour = vec3(0);
       [[unroll]] for (uint column = 0; column < COLUMNS; ++column) {
         const float dx = d.x + float(column * LANES);
         const float along = stamp.form.x * dx * dx + stamp.log_opacity, across = stamp.form.y * dx;
-        float sum = 0, sum_y = 0, sum_yy = 0;
+        const float column_depth = stamp.depth + stamp.slope.x * dx;
+        float sum = 0, sum_y = 0, sum_yy = 0, sum_z = 0, sum_zy = 0;
         [[unroll]] for (uint row = 0; row < ROWS; ++row) {
           const uint k = row * COLUMNS + column;
           const float dy = d.y + float(row * ROW_STEP);
           const float before = transmittance[k];
           const Layer l = layer_of(along + dy * (across + stamp.form.z * dy), before);
           transmittance[k] = l.stops ? 0.0 : l.left;
-          const float value = weight_value(upstream[k], sensor[k], stamp.colour, stamp.depth);
+          const float z = column_depth + stamp.slope.y * dy;
+          const float value = weight_value(upstream[k], sensor[k], stamp.colour, z);
           behind[k] -= l.weight * value;
           // dL/dexponent = alpha dL/dalpha; none through the clamp of alpha.
           const float slope = l.weight * (value - behind[k] / max(l.left, TRANSMITTANCE_MIN));
@@ -76,7 +79,9 @@ SplatGradient visit_batch(Stamp my) {
           sum_y += g * dy;
           sum_yy += g * dy * dy;
           g_colour += l.weight * upstream[k].colour;
-          depth[member] += depth_slope(upstream[k], sensor[k], l.weight, stamp.depth, before, transmittance[k]);
+          const float g_z = depth_gradient(upstream[k], sensor[k], l.weight, z, before, transmittance[k]);
+          sum_z += g_z;
+          sum_zy += g_z * dy;
         }
         g0[member] += sum;
         gx[member] += sum * dx;
@@ -84,6 +89,9 @@ SplatGradient visit_batch(Stamp my) {
         gxx[member] += sum * dx * dx;
         gxy[member] += sum_y * dx;
         gyy[member] += sum_yy;
+        gz[member] += sum_z;
+        gzx[member] += sum_z * dx;
+        gzy[member] += sum_zy;
       }
       red[member] = g_colour.r;
       green[member] = g_colour.g;
@@ -92,7 +100,8 @@ SplatGradient visit_batch(Stamp my) {
     const SplatGradient reduced =
         SplatGradient(reduce_group(g0), vec2(reduce_group(gx), reduce_group(gy)),
                       vec3(reduce_group(gxx), reduce_group(gxy), reduce_group(gyy)),
-                      vec3(reduce_group(red), reduce_group(green), reduce_group(blue)), reduce_group(depth));
+                      vec3(reduce_group(red), reduce_group(green), reduce_group(blue)),
+                      reduce_group(gz), vec2(reduce_group(gzx), reduce_group(gzy)));
     if (gl_SubgroupInvocationID / GROUP == group / GROUP) total = reduced;
   }
   return total;

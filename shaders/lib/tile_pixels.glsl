@@ -30,21 +30,22 @@ struct Stamp {
   float log_opacity;    // log2
   vec3 colour;
   float depth;
+  vec2 slope;
 };
 
-const Stamp NO_STAMP = Stamp(vec2(0), vec3(0), -1000.0, vec3(0), 0.0);
+const Stamp NO_STAMP = Stamp(vec2(0), vec3(0), -1000.0, vec3(0), 0.0, vec2(0));
 
 Stamp stamp_of(Splat s) {
   const float LOG2_E = 1.4426950408889634;
   return Stamp(s.centre, -LOG2_E * vec3(0.5 * s.conic.x, s.conic.y, 0.5 * s.conic.z), log2(s.opacity), s.colour,
-               s.depth);
+               s.depth, s.slope);
 }
 
 /// The stamp that `lane` has loaded.
 Stamp stamp_from(Stamp my, uint lane) {
   return Stamp(subgroupShuffle(my.centre, lane), subgroupShuffle(my.form, lane),
                subgroupShuffle(my.log_opacity, lane), subgroupShuffle(my.colour, lane),
-               subgroupShuffle(my.depth, lane));
+               subgroupShuffle(my.depth, lane), subgroupShuffle(my.slope, lane));
 }
 
 /// One Gaussian in front of one pixel. A pixel that has stopped keeps a transmittance of 0; masks are arithmetic, since

@@ -24,6 +24,16 @@ struct AlignSums {
   float pixels_depth;
 };
 
+/// What a frame is aligned to: source 0 is the render, the others are the images of keyframes.
+SHARED_CONST uint ALIGN_REFERENCES = 4;
+SHARED_CONST uint ALIGN_SOURCES = 1 + ALIGN_REFERENCES;
+
+/// Scales of the residuals' t-distributions, squared.
+struct AlignScales {
+  float colour;
+  float depth;
+};
+
 /// The alignment on its way.
 struct AlignState {
   CameraState base;        // the camera that was rendered; the motion since:
@@ -31,8 +41,8 @@ struct AlignState {
   vec3 rotation1;
   vec3 rotation2;
   vec3 translation;
-  float variance_colour;   // scales of the residuals' t-distributions, squared
-  float variance_depth;
+  AlignScales scales[ALIGN_SOURCES];
+  CameraState references[ALIGN_REFERENCES];   // the keyframes' cameras
   CameraState best_camera;
   float best_loss;
   float best_valid;        // depth pixels that took part at the best pose, of those with sensor depth

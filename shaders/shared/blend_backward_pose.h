@@ -6,7 +6,8 @@
   C(1, TILE_W, 8) C(2, TILE_H, 8) C(3, LANES, 8)   \
   C(4, SH_DEGREE, 0)                               \
   C(5, FULL_POSE_GRADIENT, 1) /* 0: light, through the centre and the depth alone */ \
-  C(6, WITH_GEOMETRY, 1)      /* also from median depth and uncertainty */
+  C(6, WITH_GEOMETRY, 1)      /* also from median depth and uncertainty */ \
+  C(7, PLANE_DEPTH, 1)        /* as in project_splats */
 #define PASS_BINDINGS(READ, WRITE, UPDATE)   \
   READ(0, CameraState, camera)               \
   READ(1, Splat, splats)                     \

@@ -2,7 +2,8 @@
 #include "splat_types.h"
 
 #define PASS project_backward
-#define PASS_CONSTANTS(C) C(1, SH_DEGREE, 0) C(2, FULL_POSE_GRADIENT, 1)
+#define PASS_CONSTANTS(C) C(1, SH_DEGREE, 0) C(2, FULL_POSE_GRADIENT, 1) \
+  C(3, PLANE_DEPTH, 1) /* as in project_splats */
 #define PASS_PARAMS(P) P(float, weight_isotropy) P(float, isotropy_epsilon)
 #define PASS_BINDINGS(READ, WRITE, UPDATE)       \
   READ(0, CameraState, camera)                   \

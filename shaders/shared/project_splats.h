@@ -2,7 +2,8 @@
 #include "splat_types.h"
 
 #define PASS project_splats
-#define PASS_CONSTANTS(C) C(1, TILE_W, 8) C(2, TILE_H, 8) C(3, SH_DEGREE, 0)
+#define PASS_CONSTANTS(C) C(1, TILE_W, 8) C(2, TILE_H, 8) C(3, SH_DEGREE, 0) \
+  C(4, PLANE_DEPTH, 1) /* 0: the depth of the centre all over the footprint */
 #define PASS_PARAMS(P) P(uint, count) P(float, uncertainty_above) /* those above are left out */
 #define PASS_BINDINGS(READ, WRITE, UPDATE) \
   READ(0, CameraState, camera)             \

@@ -20,13 +20,14 @@ struct CameraState {
   uint height;
 };
 
-/// A Gaussian projected to the image. A depth that varies over the footprint would add its two slopes here.
+/// A Gaussian projected to the image.
 struct Splat {
   vec2 centre;    // pixels
   vec3 conic;     // inverse of the 2D covariance: xx, xy, yy
   float opacity;  // after the sigmoid; 0 where culled
   vec3 colour;
   float depth;    // camera z of the centre
+  vec2 slope;     // d(depth)/d(pixel): over its footprint, a Gaussian's depth is that of a plane
 };
 
 /// What a tile sums up for one of its Gaussians while going backward, with p = -d^T conic d / 2 the exponent at pixel
@@ -37,6 +38,7 @@ struct SplatGradient {
   vec3 second;      // sum g (dx dx, dx dy, dy dy)
   vec3 colour;      // dL/dcolour
   float depth;      // dL/dz
+  vec2 depth_first; // sum over pixels of dL/dz(d) d, with z(d) = depth + slope . d
 };
 
 /// Gradient of the loss with respect to what is rendered at one pixel.

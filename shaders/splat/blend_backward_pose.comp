@@ -23,7 +23,7 @@ void main() {
   for (uint batch = range.x; batch < range.y; batch += LANES) {
     const uint mine = batch + gl_SubgroupInvocationID;
     uint id = 0;
-    Splat my = Splat(vec2(0), vec3(0), 0.0, vec3(0), 1.0);
+    Splat my = Splat(vec2(0), vec3(0), 0.0, vec3(0), 1.0, vec2(0));
     if (mine < range.y) {
       id = tile_gaussians[mine];
       my = splats[id];

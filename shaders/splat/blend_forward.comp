@@ -43,6 +43,7 @@ void main() {
         [[unroll]] for (uint column = 0; column < COLUMNS; ++column) {
           const float dx = d.x + float(column * LANES);
           const float along = stamp.form.x * dx * dx + stamp.log_opacity, across = stamp.form.y * dx;
+          const float column_depth = stamp.depth + stamp.slope.x * dx;
           [[unroll]] for (uint row = 0; row < ROWS; ++row) {
             const uint k = row * COLUMNS + column;
             const float dy = d.y + float(row * ROW_STEP);
@@ -50,11 +51,12 @@ void main() {
             const Layer l = layer_of(along + dy * (across + stamp.form.z * dy), before);
             transmittance[k] = l.stops ? 0.0 : l.left;
             colour[k] += l.weight * stamp.colour;
-            depth[k] += l.weight * stamp.depth;
+            const float z = column_depth + stamp.slope.y * dy;
+            depth[k] += l.weight * z;
             opacity[k] += l.weight;
             if (WITH_GEOMETRY == 1) {
-              median[k] = before >= 0.5 && transmittance[k] < 0.5 ? stamp.depth : median[k];
-              const float off = stamp.depth - sensor[k];
+              median[k] = before >= 0.5 && transmittance[k] < 0.5 ? z : median[k];
+              const float off = z - sensor[k];
               uncertainty[k] += l.weight * off * off;
               dominator[k] = l.weight > best[k] ? id : dominator[k];
               best[k] = max(best[k], l.weight);

@@ -15,7 +15,7 @@ void main() {
   PoseGradient pose = PoseGradient(vec3(0), vec3(0));
   if (active_lane) {
     const uint id = visible_ids[v];
-    SplatGradient sum = SplatGradient(0.0, vec2(0), vec3(0), vec3(0), 0.0);
+    SplatGradient sum = SplatGradient(0.0, vec2(0), vec3(0), vec3(0), 0.0, vec2(0));
     const uint begin = instance_offsets[id], end = begin + tile_counts[id];
     for (uint slot = begin; slot < end; ++slot) {
       const SplatGradient g = instance_gradients[slot];
@@ -24,6 +24,7 @@ void main() {
       sum.second += g.second;
       sum.colour += g.colour;
       sum.depth += g.depth;
+      sum.depth_first += g.depth_first;
     }
 
     const CameraState c = camera[0];
@@ -71,8 +72,7 @@ void main() {
       sh_basis(normalize(direction), basis);
       [[unroll]] for (uint k = 1; k < SH_COUNT; ++k) sh_gradients[id * SH_COUNT + k] = basis[k] * g_colour;
     }
-    const vec2 g_centre = vec2(s.conic.x * sum.first.x + s.conic.y * sum.first.y,
-                               s.conic.y * sum.first.x + s.conic.z * sum.first.y);
+    const vec2 g_centre = centre_gradient(s, sum);
     // In units of the image's half size, as 3DGS counts it, so that thresholds do not depend on the resolution.
     densification[id] += vec2(length(g_centre * 0.5 * vec2(c.width, c.height)), 1);
   }

@@ -20,7 +20,8 @@ void main() {
 
   const Perspective p = perspective_of(c, x_c);
   vec3 row0, row1;
-  image_axes(p, camera_axes(c, rotations[i], log_scales[i]), row0, row1);
+  const mat3 V = camera_axes(c, rotations[i], log_scales[i]);
+  image_axes(p, V, row0, row1);
 
   Splat s;
   s.centre = p.focal_over_z * x_c.xy + vec2(c.cx, c.cy);
@@ -28,9 +29,11 @@ void main() {
   const vec3 camera_centre = -(transpose(camera_rotation(c)) * c.translation);
   s.colour = max(sh_colour(i, normalize(mean - camera_centre)), vec3(0));
   s.depth = x_c.z;
+  s.slope = depth_slope_of(row0, row1, transpose(V)[2], s.conic);
+  if (PLANE_DEPTH == 0) s.slope = vec2(0);
   s.opacity = 1 / (1 + exp(-opacity_logits[i]));
   // A Gaussian that is not a number must not enter the image.
-  const float probe = dot(s.centre, s.centre) + dot(s.conic, s.conic) + dot(s.colour, s.colour) + s.opacity;
+  const float probe = dot(s.centre, s.centre) + dot(s.conic, s.conic) + dot(s.colour, s.colour) + s.opacity + dot(s.slope, s.slope);
   if (!in_front || isnan(probe) || isinf(probe)) s.opacity = 0;
 
   if (uncertainty[i] > params.uncertainty_above) s.opacity = 0;

@@ -58,21 +58,37 @@ float variance_of(float squares, float pixels, float before) {
   return pixels > 0 ? max(squares / pixels, LEAST_VARIANCE) : before;
 }
 
-// One workgroup: adds up the partial sums in a fixed order; then one invocation solves and moves the camera.
-void main() {
-  const uint i = gl_LocalInvocationID.x;
-  AlignSums sum = partial_sums[min(i, params.count - 1)];   // beyond the count: not used below
-  for (uint k = i + gl_WorkGroupSize.x; k < params.count; k += gl_WorkGroupSize.x) sum = add(sum, partial_sums[k]);
+AlignScales scales_of(AlignSums s, AlignScales before) {
+  return AlignScales(variance_of(s.squares_colour, s.pixels_colour, before.colour),
+                     variance_of(s.squares_depth, s.pixels_depth, before.depth));
+}
+
+/// The sum of the partial sums of a source, for invocation 0; all of the workgroup take part.
+AlignSums total(uint i, uint source) {
+  const uint count = params.count, first = source * count;
+  AlignSums sum = partial_sums[first + min(i, count - 1)];   // beyond the count: not used below
+  for (uint k = i + gl_WorkGroupSize.x; k < count; k += gl_WorkGroupSize.x) sum = add(sum, partial_sums[first + k]);
+  barrier();
   tree[i] = sum;
   for (uint step = gl_WorkGroupSize.x / 2; step > 0; step /= 2) {
     barrier();
-    if (i < step && i + step < params.count) tree[i] = add(tree[i], tree[i + step]);
+    if (i < step && i + step < count) tree[i] = add(tree[i], tree[i + step]);
   }
-  if (i != 0 || status[0].overflow != 0) return;
+  return tree[0];
+}
 
-  const AlignSums s = tree[0];
-  state[0].variance_colour = variance_of(s.squares_colour, s.pixels_colour, state[0].variance_colour);
-  state[0].variance_depth = variance_of(s.squares_depth, s.pixels_depth, state[0].variance_depth);
+// One workgroup: adds up the partial sums in a fixed order; then one invocation solves and moves the camera.
+void main() {
+  const uint i = gl_LocalInvocationID.x;
+  const bool acts = i == 0 && status[0].overflow == 0;
+  AlignSums s = total(i, 0);
+  if (acts) state[0].scales[0] = scales_of(s, state[0].scales[0]);
+  for (uint source = 1; source < params.sources; ++source) {
+    const AlignSums more = total(i, source);
+    if (acts) state[0].scales[source] = scales_of(more, state[0].scales[source]);
+    s = add(s, more);
+  }
+  if (!acts) return;
   float x[6];
   if (!solve(s, x)) return;
   CameraState motion = state[0].base;

@@ -5,6 +5,7 @@
 #include "triangle.glsl"
 
 const float T_FREEDOM = 5;        // of the residuals' t-distributions
+const float SAME_SURFACE = 0.05;  // of the depth
 const float DEPTH_GATE = 0.2;     // of the depth: farther apart, the frame shows another surface
 
 /// Weight of a residual from a t-distribution of this squared scale, the division by the scale not yet included.
@@ -48,9 +49,18 @@ AlignSums subgroup_sums(AlignSums s) {
 void main() {
   const uint strip = gl_GlobalInvocationID.x;
   const vec4 k = intrinsics_at(state[0].base, params.level);
-  const mat3 R = transpose(mat3(state[0].rotation0, state[0].rotation1, state[0].rotation2));
-  const vec3 t = state[0].translation;
-  const float variance_colour = state[0].variance_colour, variance_depth = state[0].variance_depth;
+  mat3 R = transpose(mat3(state[0].rotation0, state[0].rotation1, state[0].rotation2));
+  vec3 t = state[0].translation;
+  if (FROM_KEYFRAME == 1) {
+    // From the keyframe's camera to the base's, and on.
+    const CameraState base = state[0].base, reference = state[0].references[params.source - 1];
+    const mat3 turn = transpose(mat3(base.rotation0, base.rotation1, base.rotation2)) *
+                      mat3(reference.rotation0, reference.rotation1, reference.rotation2);
+    t += R * (base.translation - turn * reference.translation);
+    R = R * turn;
+  }
+  const float variance_colour = state[0].scales[params.source].colour;
+  const float variance_depth = state[0].scales[params.source].depth;
   const uint pixels = strip < params.strips ? params.width * params.height : 0;
 
   AlignSums s;
@@ -74,17 +84,19 @@ void main() {
     const vec2 p00 = sensor[at], p10 = sensor[at + 1], p01 = sensor[at + params.width],
                p11 = sensor[at + params.width + 1];
 
+    const bool right = part.x >= 0.5, lower = part.y >= 0.5;
+    const float depth = right ? (lower ? p11.y : p10.y) : (lower ? p01.y : p00.y);
     const float top = mix(p00.x, p10.x, part.x), bottom = mix(p01.x, p11.x, part.x);
     const float off = mix(top, bottom, part.y) - point.intensity;
     const vec2 slope = k.xy / z * vec2(mix(p10.x - p00.x, p11.x - p01.x, part.y), bottom - top);
     const vec3 by_point = vec3(slope, -dot(slope, Y.xy) / z);
-    const float w_colour = visible ? t_weight(off, variance_colour) : 0;
+    // What the keyframe saw may be hidden by now.
+    const bool shown = visible && (FROM_KEYFRAME == 0 || depth == 0 || abs(depth - Y.z) < SAME_SURFACE * Y.z);
+    const float w_colour = shown ? t_weight(off, variance_colour) : 0;
     s.squares_colour += w_colour * off * off;
-    s.pixels_colour += visible ? 1 : 0;
-    add_residual(s, off, by_point, cross(Y, by_point), w_colour / variance_colour);
+    s.pixels_colour += shown ? 1 : 0;
+    add_residual(s, off, by_point, cross(Y, by_point), params.weight * w_colour / variance_colour);
 
-    const bool right = part.x >= 0.5, lower = part.y >= 0.5;
-    const float depth = right ? (lower ? p11.y : p10.y) : (lower ? p01.y : p00.y);
     const vec3 S = unproject(k, vec2(corner) + vec2(right, lower), depth);
     const bool measured = visible && depth > 0 && abs(depth - Y.z) < DEPTH_GATE * Y.z && point.normal != vec3(0);
     const vec3 m = R * point.normal;
@@ -93,8 +105,8 @@ void main() {
     const float w_depth = measured ? t_weight(distance, variance_depth) : 0;
     s.squares_depth += w_depth * distance * distance;
     s.pixels_depth += measured ? 1 : 0;
-    add_residual(s, distance, scale * m, scale * cross(S, m), params.balance * w_depth / variance_depth);
+    add_residual(s, distance, scale * m, scale * cross(S, m), params.weight * params.balance * w_depth / variance_depth);
   }
   s = subgroup_sums(s);
-  if (gl_SubgroupInvocationID == 0) partial_sums[gl_WorkGroupID.x * gl_NumSubgroups + gl_SubgroupID] = s;
+  if (gl_SubgroupInvocationID == 0) partial_sums[params.first + gl_WorkGroupID.x * gl_NumSubgroups + gl_SubgroupID] = s;
 }

@@ -150,17 +150,17 @@ void blend_pixel(const std::vector<Projection>& projections, const PixelDecision
     const double weight = blended.weight(i);
     colour += weight * projection.colour;
     images.opacity[pixel] += weight;
-    images.depth[pixel] += weight * projection.depth();
-    if (valid_depth(sensor_depth)) {
-      images.uncertainty[pixel] +=
-          weight * (projection.depth() - sensor_depth) * (projection.depth() - sensor_depth);
-    }
+    const double z = projection.depth_at(x, y);
+    images.depth[pixel] += weight * z;
+    if (valid_depth(sensor_depth))
+      images.uncertainty[pixel] += weight * (z - sensor_depth) * (z - sensor_depth);
   }
   colour += (1 - images.opacity[pixel]) * settings.background;
   for (int channel = 0; channel < 3; ++channel) images.colour[pixel * 3 + channel] = colour[channel];
   if (images.opacity[pixel] > 0) images.depth_normalised[pixel] = images.depth[pixel] / images.opacity[pixel];
   if (decisions.median >= 0) {
-    images.depth_median[pixel] = projections[decisions.contributions[decisions.median].gaussian].depth();
+    images.depth_median[pixel] =
+        projections[decisions.contributions[decisions.median].gaussian].depth_at(x, y);
   }
   if (decisions.dominator >= 0) {
     images.dominator[pixel] = decisions.contributions[decisions.dominator].gaussian;
@@ -176,7 +176,7 @@ void blend_pixel_backward(const std::vector<Projection>& projections, const Pixe
   double opacity = 0, depth = 0;
   for (std::size_t i = 0; i < blended.alpha.size(); ++i) {
     opacity += blended.weight(i);
-    depth += blended.weight(i) * projections[decisions.contributions[i].gaussian].depth();
+    depth += blended.weight(i) * projections[decisions.contributions[i].gaussian].depth_at(x, y);
   }
   if (opacity == 0) return;
   const Eigen::Vector3d g_colour(&upstream.colour[pixel * 3]);
@@ -194,17 +194,20 @@ void blend_pixel_backward(const std::vector<Projection>& projections, const Pixe
     const Projection& projection = projections[contribution.gaussian];
     ProjectionGradient& gradient = gradients[contribution.gaussian];
     const double weight = blended.weight(i);
-    const double z = projection.depth();
+    const double z = projection.depth_at(x, y);
     gradient.colour += weight * g_colour;
-    gradient.depth += weight * (g_depth + 2 * g_uncertainty * (z - sensor));
-    if (i == decisions.median) gradient.depth += upstream.depth_median[pixel];
+    const Eigen::Vector2d d = Eigen::Vector2d(x, y) - projection.mean;
+    double g_z = weight * (g_depth + 2 * g_uncertainty * (z - sensor));
+    if (i == decisions.median) g_z += upstream.depth_median[pixel];
+    gradient.depth += g_z;
+    gradient.slope += g_z * d;
+    gradient.mean -= g_z * projection.slope;
 
     const double payload = g_colour.dot(projection.colour) + g_opacity + g_depth * z +
                            g_uncertainty * (z - sensor) * (z - sensor);
     const double g_alpha = blended.transmittance[i] * payload - behind / (1 - blended.alpha[i]);
     behind += weight * payload;
     if (contribution.saturated) continue;
-    const Eigen::Vector2d d = Eigen::Vector2d(x, y) - projection.mean;
     gradient.opacity += g_alpha * falloff(projection, x, y);
     gradient.mean += g_alpha * blended.alpha[i] * projection.conic * d;
     gradient.conic -= 0.5 * g_alpha * blended.alpha[i] * d * d.transpose();

@@ -196,9 +196,12 @@ Projection project(const Gaussians& gaussians, int index, const Camera& camera, 
                      k.fy * projection.camera_mean.y() / z + k.cy};
   const Matrix23d jacobian =
       projection_jacobian(projection.camera_mean, projection.decisions.tangent_clamp, k, settings);
-  projection.covariance = jacobian * camera_covariance(gaussians, index, camera) * jacobian.transpose() +
-                          settings.blur * Eigen::Matrix2d::Identity();
+  const Eigen::Matrix3d covariance = camera_covariance(gaussians, index, camera);
+  projection.covariance =
+      jacobian * covariance * jacobian.transpose() + settings.blur * Eigen::Matrix2d::Identity();
   projection.conic = projection.covariance.inverse();
+  if (settings.plane_depth)
+    projection.slope = projection.conic * jacobian * covariance * Eigen::Vector3d::UnitZ();
   projection.opacity = 1 / (1 + std::exp(-gaussians.opacity_logits[index]));
   for (int channel = 0; channel < 3; ++channel) {
     projection.colour[channel] = projection.decisions.colour_clamped[channel] ? 0 : colour[channel];
@@ -220,9 +223,17 @@ void project_backward(const Gaussians& gaussians, int index, const Camera& camer
       k.fx / p.z() * upstream.mean.x(), k.fy / p.z() * upstream.mean.y(),
       upstream.depth -
           (k.fx * p.x() * upstream.mean.x() + k.fy * p.y() * upstream.mean.y()) / (p.z() * p.z()));
-  const Matrix23d jacobian_gradient = 2 * upstream.covariance * jacobian * covariance;
+  // The slope q = Sigma2^-1 J Sigma_c e_z: with h = Sigma2^-1 dL/dq, dL/dSigma2 = -h q^T, made symmetric.
+  const Eigen::Vector2d h =
+      settings.plane_depth ? Eigen::Vector2d(projection.conic * upstream.slope) : Eigen::Vector2d::Zero();
+  const Eigen::Matrix2d slope_part = h * projection.slope.transpose();
+  const Eigen::Matrix2d image_gradient = upstream.covariance - (slope_part + slope_part.transpose()) / 2;
+  const Matrix23d jacobian_gradient =
+      2 * image_gradient * jacobian * covariance + h * covariance.col(2).transpose();
   const Eigen::Vector3d full = light + jacobian_backward(jacobian_gradient, projection, k, settings);
-  const Eigen::Matrix3d covariance_gradient = jacobian.transpose() * upstream.covariance * jacobian;
+  const Eigen::Matrix3d depth_part = jacobian.transpose() * h * Eigen::RowVector3d::UnitZ();
+  const Eigen::Matrix3d covariance_gradient =
+      jacobian.transpose() * image_gradient * jacobian + (depth_part + depth_part.transpose()) / 2;
   const Eigen::Vector3d view_gradient =
       colour_backward(gaussians, index, camera, projection, upstream.colour, gradients);
 

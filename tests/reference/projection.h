@@ -17,7 +17,11 @@ struct Projection {
   double opacity = 0;                                    ///< after the sigmoid
   Eigen::Vector3d colour = Eigen::Vector3d::Zero();      ///< RGB: 0.5 + SH, clamped at 0
 
-  double depth() const { return camera_mean.z(); }
+  Eigen::Vector2d slope = Eigen::Vector2d::Zero();  ///< of the depth over the footprint, metres a pixel
+
+  double depth() const { return camera_mean.z(); }  ///< of the centre
+  /// At a pixel: that of a plane through the centre.
+  double depth_at(int x, int y) const { return depth() + slope.dot(Eigen::Vector2d(x, y) - mean); }
 };
 
 /// Projects Gaussian `index`. Where `held` is given, takes its discrete decisions instead of making them.

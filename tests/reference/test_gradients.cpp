@@ -210,6 +210,14 @@ TEST_CASE(
   CHECK(total.culled > 5);
 }
 
+TEST_CASE("gradients agree with finite differences where the depth is that of the centre") {
+  Problem problem(small_scene(8, SceneKind::anisotropic, 0));
+  problem.settings.plane_depth = false;
+  const std::vector<Gradients> gradients = problem.gradients(PoseTerms::full);
+  check_parameters(problem, gradients);
+  check_pose(problem, gradients, [&] { return problem.replayed(); });
+}
+
 TEST_CASE("gradients agree with finite differences for every SH degree") {
   for (int degree = 0; degree <= 3; ++degree) {
     CAPTURE(degree);

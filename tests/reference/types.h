@@ -36,6 +36,7 @@ struct Gaussians {
 struct Settings {
   Eigen::Vector3d background = Eigen::Vector3d::Zero();  ///< RGB behind the Gaussians
   double near_plane = 0.01;             ///< metres; a Gaussian whose z is below takes no part
+  bool plane_depth = true;              ///< else the depth is that of the centre all over the footprint
   double blur = 0.3;                    ///< pixels^2, added to the diagonal of the projected covariance
   double tangent_margin = 1.3;          ///< x/z and y/z in J are clamped to this many times the image border
   double maximum_alpha = 0.99;          ///< larger alphas are clamped, without gradient
@@ -143,6 +144,7 @@ struct ProjectionGradient {
   double opacity = 0;                                ///< dL/do, o after the sigmoid
   Eigen::Vector3d colour = Eigen::Vector3d::Zero();  ///< dL/dc, RGB after SH and its clamp
   double depth = 0;  ///< dL/dz, not counting what goes through mean and covariance
+  Eigen::Vector2d slope = Eigen::Vector2d::Zero();  ///< dL/d(slope of the depth), per metre a pixel
 };
 
 /// Derivatives of a scalar loss with respect to every parameter; layouts as in Gaussians.

@@ -63,3 +63,49 @@ TEST_CASE("later frames spawn where the map is thin or lies far behind") {
   never.front_factor = 0;
   CHECK(spawn_gaussians(frame, camera, &images, never, 5).size() == 1);
 }
+
+TEST_CASE(
+    "newborns are discs on the surface, which cover the pixel in every direction; spheres where it is "
+    "unknown") {
+  // A plane seen at a slant, in a camera that is turned itself.
+  const Intrinsics k{.width = 16, .height = 12, .fx = 80, .fy = 80, .cx = 7.5, .cy = 5.5};
+  const Eigen::Vector3d normal = Eigen::Vector3d(0.5, -0.2, -1).normalized();
+  Frame frame;
+  frame.colour = cv::Mat(12, 16, CV_8UC3, cv::Scalar(255, 128, 0));
+  frame.depth = cv::Mat(12, 16, CV_32FC1);
+  for (int v = 0; v < 12; ++v)
+    for (int u = 0; u < 16; ++u)
+      frame.depth.at<float>(v, u) =
+          static_cast<float>(-2 / normal.dot(Eigen::Vector3d((u - k.cx) / k.fx, (v - k.cy) / k.fy, 1)));
+  Camera camera{k};
+  camera.world_to_camera.linear() =
+      Eigen::AngleAxisd(0.7, Eigen::Vector3d(1, 2, 3).normalized()).toRotationMatrix();
+  SpawnSettings settings;
+  settings.thickness = 0.1;
+  const GaussianCloud cloud = spawn_gaussians(frame, camera, nullptr, settings, 5);
+  REQUIRE(cloud.size() == 192);
+  const int i = 7 * 16 + 11;
+  const Eigen::Vector4f& q = cloud.rotations[i];
+  const Eigen::Matrix3d axes =
+      camera.world_to_camera.linear() * Eigen::Quaterniond(q[0], q[1], q[2], q[3]).toRotationMatrix();
+  const Eigen::Vector3d scales = cloud.log_scales[i].cast<double>().array().exp();
+  const double z = frame.depth.at<float>(7, 11), radius = z / 80;
+  CHECK(std::abs(axes.col(2).dot(normal)) == doctest::Approx(1).epsilon(1e-3));
+  CHECK(scales[0] == doctest::Approx(radius));
+  CHECK(scales[2] == doctest::Approx(0.1 * radius));
+  // Stretched where the surface recedes, so that along the ray's projection it is as wide as across.
+  const Eigen::Vector3d ray = Eigen::Vector3d(3.5 / 80, 1.5 / 80, 1).normalized();
+  CHECK(scales[1] * std::abs(normal.dot(ray)) == doctest::Approx(radius).epsilon(1e-3));
+  CHECK(std::abs(axes.col(0).dot(ray)) < 1e-3);
+
+  settings.thickness = 1;
+  CHECK(spawn_gaussians(frame, camera, nullptr, settings, 5).log_scales[i] ==
+        Eigen::Vector3f::Constant(cloud.log_scales[i].x()));
+  // Alone among pixels without depth, nothing is known of the surface.
+  Frame dot{.colour = frame.colour, .depth = cv::Mat(12, 16, CV_32FC1, cv::Scalar(0))};
+  dot.depth.at<float>(2, 5) = 2;
+  settings.thickness = 0.1;
+  const GaussianCloud alone = spawn_gaussians(dot, camera, nullptr, settings, 5);
+  REQUIRE(alone.size() == 1);
+  CHECK(alone.log_scales[0].z() == alone.log_scales[0].x());
+}

@@ -25,6 +25,7 @@ using Matrix6 = Eigen::Matrix<double, 6, 6>;
 using Vector6 = Eigen::Matrix<double, 6, 1>;
 
 constexpr double kVarianceColour = 0.01, kVarianceDepth = 4e-4;
+constexpr glsl::AlignScales kScales{static_cast<float>(kVarianceColour), static_cast<float>(kVarianceDepth)};
 constexpr double kFreedom = 5;
 constexpr double kBalance = 0.3;
 
@@ -81,6 +82,7 @@ Pair make_pair(int width, int height) {
 /// that pose's pixel.
 struct Residuals {
   bool visible = false, measured = false;
+  bool hidden = false;  ///< the frame shows another surface there
   double colour = 0, depth = 0;
 };
 
@@ -102,6 +104,7 @@ Residuals residuals_of(const Pair& p, int i, const Pose& pose, const Vector6& xi
 
   const int right = u0 - column >= 0.5, lower = v0 - row >= 0.5;
   const double seen = sensor(right, lower).y;
+  r.hidden = seen > 0 && std::abs(seen - Y0.z()) >= 0.05 * Y0.z();
   const Eigen::Vector3d n = to_eigen(point.normal);
   r.measured = seen > 0 && std::abs(seen - Y0.z()) < 0.2 * Y0.z() && n.norm() > 0;
   if (!r.measured) return r;
@@ -121,8 +124,9 @@ struct Sums {
   double squares_colour = 0, squares_depth = 0, pixels_colour = 0, pixels_depth = 0;
 };
 
-/// The oracle, over every `stride`-th pixel: every derivative is a central difference.
-Sums reference_sums(const Pair& p, const Pose& pose, int stride) {
+/// The oracle, over every `stride`-th pixel: every derivative is a central difference. What a keyframe saw
+/// and the frame does not takes no part in the photometric term.
+Sums reference_sums(const Pair& p, const Pose& pose, int stride, bool from_keyframe) {
   constexpr double kStep = 1e-6;
   Sums s;
   for (int i = 0; i < p.width * p.height; i += stride) {
@@ -135,11 +139,13 @@ Sums reference_sums(const Pair& p, const Pose& pose, int stride) {
       J_colour[k] = (more.colour - less.colour) / (2 * kStep);
       J_depth[k] = (more.depth - less.depth) / (2 * kStep);
     }
-    const double w = weight_of(r.colour, kVarianceColour);
-    s.squares_colour += w * r.colour * r.colour;
-    s.pixels_colour += 1;
-    s.normal += w / kVarianceColour * J_colour * J_colour.transpose();
-    s.slope += w / kVarianceColour * r.colour * J_colour;
+    if (!from_keyframe || !r.hidden) {
+      const double w = weight_of(r.colour, kVarianceColour);
+      s.squares_colour += w * r.colour * r.colour;
+      s.pixels_colour += 1;
+      s.normal += w / kVarianceColour * J_colour * J_colour.transpose();
+      s.slope += w / kVarianceColour * r.colour * J_colour;
+    }
     if (!r.measured) continue;
     const double v = weight_of(r.depth, kVarianceDepth);
     s.squares_depth += v * r.depth * r.depth;
@@ -161,8 +167,7 @@ glsl::AlignState state_of(const Pair& p, const Pose& motion) {
           .rotation1 = moved.rotation1,
           .rotation2 = moved.rotation2,
           .translation = moved.translation,
-          .variance_colour = static_cast<float>(kVarianceColour),
-          .variance_depth = static_cast<float>(kVarianceDepth)};
+          .scales = {kScales, kScales, kScales}};
 }
 
 Pose some_motion() {
@@ -196,42 +201,108 @@ std::vector<double> entries(const Matrix& m) {
 
 }  // namespace
 
-TEST_CASE("the sums of a Gauss-Newton step agree with differences of the residuals") {
+namespace {
+
+/// A call of align_sums: the motion is that of the render's points, or composed of the motion, the base and
+/// the keyframe's camera.
+struct SumsCase {
+  int width, height, stride;
+  bool from_keyframe = false;
+};
+
+void check_sums(const SumsCase& size) {
   gpu::Device& device = testing::device();
-  const gpu::Pass<passes::align_sums> pass(device, 64);
-  struct Case {
-    int width, height, stride;
-  };
-  for (const Case& size :
-       {Case{2, 2, 1}, {2, 2, 3}, {7, 5, 1}, {64, 48, 1}, {83, 61, 1}, {83, 61, 3}, {64, 48, 4}}) {
-    CAPTURE(size.width);
-    CAPTURE(size.stride);
-    const Pair p = make_pair(size.width, size.height);
-    const auto strips = static_cast<uint32_t>(p.points.size() / (size.stride * glsl::ALIGN_STRIP) + 1);
-    const auto state = on_device("state", std::vector{state_of(p, some_motion())});
-    const auto points = on_device("points", p.points);
-    const auto sensor = on_device("sensor", p.sensor);
-    const uint32_t count = pass.groups(strips) * (64 / device.limits().subgroup_size);
-    const gpu::Array<glsl::AlignSums> partial(device, "partial sums", count);
-    gpu::Recorder recorder(device);
-    recorder.dispatch(pass, pass.groups(strips),
-                      {.state = state, .points = points, .sensor = sensor, .partial_sums = partial},
-                      {.width = static_cast<uint32_t>(p.width),
-                       .height = static_cast<uint32_t>(p.height),
-                       .level = 0,
-                       .strips = strips,
-                       .stride = static_cast<uint32_t>(size.stride),
-                       .balance = static_cast<float>(kBalance)});
-    recorder.submit();
-    const Sums got = add_up(partial.download(count)), want = reference_sums(p, some_motion(), size.stride);
-    CHECK(got.pixels_colour == want.pixels_colour);
-    CHECK(got.pixels_depth == want.pixels_depth);
-    CHECK(got.squares_colour == doctest::Approx(want.squares_colour).epsilon(1e-3));
-    CHECK(got.squares_depth == doctest::Approx(want.squares_depth).epsilon(1e-3));
-    CHECK(largest_difference(entries(got.normal), entries(want.normal), magnitude(entries(want.normal))) <
-          1e-3);
-    CHECK(largest_difference(entries(got.slope), entries(want.slope), magnitude(entries(want.slope))) < 1e-3);
+  const gpu::Pass<passes::align_sums> pass(device, 64, {.FROM_KEYFRAME = size.from_keyframe ? 1u : 0u});
+  const Pair p = make_pair(size.width, size.height);
+  const auto strips = static_cast<uint32_t>(p.points.size() / (size.stride * glsl::ALIGN_STRIP) + 1);
+  const Pose base = small_motion(Vector6::Constant(0.3)),
+             keyframe = small_motion(Vector6::Constant(0.01)) * base;
+  glsl::AlignState host_state = state_of(p, some_motion());
+  if (size.from_keyframe) {
+    host_state.base = to_device(Camera{p.intrinsics, base});
+    host_state.references[1] = to_device(Camera{p.intrinsics, keyframe});
   }
+  const Pose pose = size.from_keyframe ? some_motion() * base * keyframe.inverse() : some_motion();
+  const auto state = on_device("state", std::vector{host_state});
+  const auto points = on_device("points", p.points);
+  const auto sensor = on_device("sensor", p.sensor);
+  const uint32_t count = pass.groups(strips) * (64 / device.limits().subgroup_size);
+  constexpr uint32_t kFirst = 3;
+  const gpu::Array<glsl::AlignSums> partial(device, "partial sums", kFirst + count);
+  gpu::Recorder recorder(device);
+  recorder.dispatch(pass, pass.groups(strips),
+                    {.state = state, .points = points, .sensor = sensor, .partial_sums = partial},
+                    {.width = static_cast<uint32_t>(p.width),
+                     .height = static_cast<uint32_t>(p.height),
+                     .level = 0,
+                     .strips = strips,
+                     .stride = static_cast<uint32_t>(size.stride),
+                     .weight = 0.5f,
+                     .balance = static_cast<float>(kBalance),
+                     .source = size.from_keyframe ? 2u : 0u,
+                     .first = kFirst});
+  recorder.submit();
+  const auto written = partial.download(kFirst + count);
+  const Sums got = add_up({written.begin() + kFirst, written.end()});
+  Sums want = reference_sums(p, pose, size.stride, size.from_keyframe);
+  want.normal *= 0.5;
+  want.slope *= 0.5;
+  CHECK(got.pixels_colour == want.pixels_colour);
+  CHECK(got.pixels_depth == want.pixels_depth);
+  CHECK(got.squares_colour == doctest::Approx(want.squares_colour).epsilon(1e-3));
+  CHECK(got.squares_depth == doctest::Approx(want.squares_depth).epsilon(1e-3));
+  CHECK(largest_difference(entries(got.normal), entries(want.normal), magnitude(entries(want.normal))) <
+        1e-3);
+  CHECK(largest_difference(entries(got.slope), entries(want.slope), magnitude(entries(want.slope))) < 1e-3);
+}
+
+}  // namespace
+
+TEST_CASE("the sums of a Gauss-Newton step agree with differences of the residuals") {
+  for (SumsCase size :
+       {SumsCase{2, 2, 1}, {2, 2, 3}, {7, 5, 1}, {64, 48, 1}, {83, 61, 1}, {83, 61, 3}, {64, 48, 4}}) {
+    for (const bool from_keyframe : {false, true}) {
+      CAPTURE(size.width);
+      CAPTURE(size.stride);
+      CAPTURE(from_keyframe);
+      size.from_keyframe = from_keyframe;
+      check_sums(size);
+    }
+  }
+}
+
+TEST_CASE("a Gauss-Newton step adds up its sources and scales the residuals of each by its own") {
+  gpu::Device& device = testing::device();
+  const gpu::Pass<passes::align_step> pass(device, 64);
+  constexpr uint32_t kCount = 70;
+  const Pair p = make_pair(8, 8);
+  std::vector<glsl::AlignSums> partial(3 * kCount);
+  for (uint32_t i = 0; i < partial.size(); ++i) {
+    glsl::AlignSums& part = partial[i];
+    int at = 0;
+    for (int row = 0; row < 6; ++row) {
+      part.slope[row] = 0.01f * static_cast<float>(row + i / kCount);
+      for (int column = row; column < 6; ++column)
+        part.normal[at++] = row == column ? 1.0f + static_cast<float>(i / kCount) : 0.1f;
+    }
+    part.squares_colour = 0.01f * static_cast<float>(1 + i / kCount);
+    part.pixels_colour = 1;
+  }
+  const Sums sum = add_up(partial);
+  Matrix6 H = sum.normal;
+  H.diagonal() *= 1 + 1e-4;
+  const Vector6 xi = -H.ldlt().solve(sum.slope);
+  const auto status = on_device("status", std::vector<glsl::RenderStatus>{{}});
+  const auto state = on_device("state", std::vector{state_of(p, Pose::Identity())});
+  const auto camera = on_device("camera", std::vector{camera_state(p.intrinsics)});
+  const auto sums = on_device("sums", partial);
+  gpu::Recorder recorder(device);
+  recorder.dispatch(pass, 1, {.status = status, .partial_sums = sums, .state = state, .camera = camera},
+                    {.count = kCount, .sources = 3});
+  recorder.submit();
+  CHECK((pose_of(camera.download(1)[0]).matrix() - small_motion(xi).matrix()).norm() < 1e-5);
+  for (int source = 0; source < 3; ++source)
+    CHECK(state.download(1)[0].scales[source].colour == doctest::Approx(0.01 * (1 + source)));
 }
 
 TEST_CASE(
@@ -264,16 +335,18 @@ TEST_CASE(
       const Camera base{p.intrinsics, small_motion(Vector6::Constant(0.3))};
       glsl::AlignState before = state_of(p, some_motion());
       before.base = to_device(base);
+      before.scales[1].depth = 0.5f;  // of a source that is not there
       const auto state = on_device("state", std::vector{before});
       const auto camera = on_device("camera", std::vector{before.base});
       const auto device_sums = on_device("sums", sums);
       gpu::Recorder recorder(device);
       recorder.dispatch(pass, 1,
                         {.status = status, .partial_sums = device_sums, .state = state, .camera = camera},
-                        {.count = count});
+                        {.count = count, .sources = 1});
       recorder.submit();
-      const float variance = state.download(1)[0].variance_colour;
-      CHECK(variance == doctest::Approx(sums[0].pixels_colour > 0 ? 0.01 : kVarianceColour));
+      const glsl::AlignState after = state.download(1)[0];
+      CHECK(after.scales[0].colour == doctest::Approx(sums[0].pixels_colour > 0 ? 0.01 : kVarianceColour));
+      CHECK(after.scales[1].depth == 0.5f);
       return (pose_of(camera.download(1)[0]) * base.world_to_camera.inverse()).matrix().eval();
     };
     const Pose want = small_motion(xi) * some_motion();

@@ -53,10 +53,12 @@ struct DeviceGradients {
 };
 
 DeviceGradients run_device(const reference::Scene& scene, const reference::ImageGradients& upstream,
-                           PoseGradientKind kind, const TileShape& shape) {
+                           PoseGradientKind kind, const TileShape& shape,
+                           DepthModel model = DepthModel::Plane) {
   gpu::Device& device = testing::device();
   Rasteriser rasteriser(device, shape);
   rasteriser.pose_gradient_kind = kind;
+  rasteriser.lists.depth_model = model;
   rasteriser.background = {0.1f, 0.2f, 0.3f};
   GaussianMap map(device);
   map.assign(scene.cloud);
@@ -84,7 +86,7 @@ DeviceGradients run_device(const reference::Scene& scene, const reference::Image
   rasteriser.record_forward(recorder, map, view, Outputs::All);
   recorder.submit();
   rasteriser.pixel_upstream.upload(pixels);
-  rasteriser.record_backward(recorder, map, view, 0.0f);
+  rasteriser.record_backward(recorder, map, view, {});
   recorder.submit();
 
   DeviceGradients g;
@@ -113,11 +115,13 @@ std::vector<double> flat_eigen(const std::vector<V>& list) {
   return values;
 }
 
-/// Compares all classes; each may differ by `tolerance` of its largest entry. Gaussians on a clamp's edge are
-/// left out.
+/// Compares all classes; each may differ by `kTolerance` of its largest entry. Gaussians on a clamp's edge
+/// are left out.
 void compare_with_oracle(const reference::Scene& scene, Upstream which, PoseGradientKind kind,
-                         const TileShape& shape, double tolerance = 2e-3) {
+                         const TileShape& shape, DepthModel model = DepthModel::Plane) {
+  constexpr double kTolerance = 2e-3;
   reference::Settings settings;
+  settings.plane_depth = model == DepthModel::Plane;
   settings.background = {0.1f, 0.2f, 0.3f};
   const reference::Gaussians gaussians(scene.cloud);
   const auto images = reference::render(gaussians, scene.camera, scene.depth, settings);
@@ -125,7 +129,7 @@ void compare_with_oracle(const reference::Scene& scene, Upstream which, PoseGrad
   const auto terms =
       kind == PoseGradientKind::Full ? reference::PoseTerms::full : reference::PoseTerms::light;
   const auto want = reference::backward(gaussians, scene.camera, scene.depth, upstream, settings, terms);
-  const DeviceGradients got = run_device(scene, upstream, kind, shape);
+  const DeviceGradients got = run_device(scene, upstream, kind, shape, model);
 
   const auto check = [&](const std::string& name, const std::vector<double>& device,
                          std::vector<double> oracle, double floor = 1e-12) {
@@ -136,7 +140,7 @@ void compare_with_oracle(const reference::Scene& scene, Upstream which, PoseGrad
     const double scale = magnitude(oracle, floor);
     for (std::size_t i = 0; i < oracle.size(); ++i)
       if (images.gaussian_edge[i / per]) oracle[i] = device[i];
-    CHECK(largest_difference(device, oracle, scale) < tolerance);
+    CHECK(largest_difference(device, oracle, scale) < kTolerance);
   };
   check("means", got.means, flat_eigen(want.means));
   check("log scales", got.log_scales, flat_eigen(want.log_scales));
@@ -149,8 +153,8 @@ void compare_with_oracle(const reference::Scene& scene, Upstream which, PoseGrad
   bool any_edge = false;
   for (auto edge : images.gaussian_edge) any_edge |= edge != 0;
   if (any_edge) return;
-  CHECK(largest_difference(got.pose, pose, magnitude(pose)) < tolerance);
-  CHECK(largest_difference(got.tracking_pose, pose, magnitude(pose)) < tolerance);
+  CHECK(largest_difference(got.pose, pose, magnitude(pose)) < kTolerance);
+  CHECK(largest_difference(got.tracking_pose, pose, magnitude(pose)) < kTolerance);
 }
 
 }  // namespace
@@ -167,7 +171,7 @@ TEST_CASE("gradients of every output for every parameter and the pose agree with
     }
 }
 
-TEST_CASE("gradients on every kind of scene, full and light") {
+TEST_CASE("gradients on every kind of scene, full and light, with the depth of a plane or of the centre") {
   const TileShape shape = TileShape::for_device(testing::device());
   uint32_t seed = 50;
   for (SceneKind kind : reference::all_scene_kinds) {
@@ -175,6 +179,7 @@ TEST_CASE("gradients on every kind of scene, full and light") {
     const auto scene = reference::random_scene(++seed, 120, {.kind = kind, .sh_degree = 3});
     compare_with_oracle(scene, Upstream::All, PoseGradientKind::Full, shape);
     compare_with_oracle(scene, Upstream::All, PoseGradientKind::Light, shape);
+    compare_with_oracle(scene, Upstream::All, PoseGradientKind::Full, shape, DepthModel::Centre);
   }
 }
 

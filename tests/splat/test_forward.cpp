@@ -15,15 +15,17 @@ namespace {
 
 /// Compares every output with the oracle's at the pixels that lie on no edge.
 void compare_with_oracle(const reference::Scene& scene, const TileShape& shape,
-                         const Eigen::Vector3d& background) {
+                         const Eigen::Vector3d& background, DepthModel model = DepthModel::Plane) {
   gpu::Device& device = testing::device();
   Rasteriser rasteriser(device, shape);
   rasteriser.background = background.cast<float>();
+  rasteriser.lists.depth_model = model;
   GaussianMap map(device);
   map.assign(scene.cloud);
   const RenderImages got = rasteriser.render(map, scene.camera, scene.depth);
   reference::Settings settings;
   settings.background = background;
+  settings.plane_depth = model == DepthModel::Plane;
   const reference::Images want =
       reference::render(reference::Gaussians(scene.cloud), scene.camera, scene.depth, settings);
 
@@ -81,6 +83,11 @@ TEST_CASE("single Gaussians, odd and tiny images, SH degrees 1 and 2") {
 TEST_CASE("other tile shapes give the same images") {
   const auto scene = reference::random_scene(21, 300, {.kind = SceneKind::mixed});
   compare_with_oracle(scene, shape_of(16), Eigen::Vector3d::Zero());
+}
+
+TEST_CASE("the depth of a Gaussian's centre, as in the paper, instead of its plane's") {
+  compare_with_oracle(reference::random_scene(15, 90, {.kind = SceneKind::anisotropic}), shape_of(8),
+                      {0, 0, 0}, DepthModel::Centre);
 }
 
 TEST_CASE("thousands of Gaussians") {

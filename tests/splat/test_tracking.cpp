@@ -80,6 +80,31 @@ TEST_CASE("Gauss-Newton recovers a pose from near and far, with either depth") {
     }
 }
 
+TEST_CASE("a keyframe's own images pull the pose to where they fit, where the map is off") {
+  Track t;
+  t.map.assign(wall(160, 120, 90));
+  const Camera keyframe_camera = moved(0.02, 0.01);
+  const SensorFrame frame = frame_of(t.device, t.rasteriser, t.map, wall_camera());
+  const SensorFrame keyframe = frame_of(t.device, t.rasteriser, t.map, keyframe_camera);
+  GaussianCloud shifted = wall(160, 120, 90);
+  for (Eigen::Vector3f& mean : shifted.means) mean.x() += 0.006f;
+  t.map.assign(shifted);
+  GaussNewtonTracker tracker(t.device);
+  const auto error = [&](std::span<const Camera> references) {
+    const TrackingSettings settings{.renders = 8, .reference_weight = 100, .minimum_opacity = 0.9};
+    return error_of(tracker.track(t.rasteriser, t.loss, t.map, frame, wall_camera(), settings, references),
+                    wall_camera())
+        .metres;
+  };
+  CHECK(error({}) > 4e-3);
+  CHECK_FALSE(tracker.holds(0, 7));
+  for (const std::size_t place : {0u, 1u}) tracker.hold(place, 7, keyframe, keyframe_camera.intrinsics);
+  CHECK(tracker.holds(1, 7));
+  const std::vector<Camera> references(2, keyframe_camera);
+  CHECK(error(std::span(references).first(1)) < 1e-3);
+  CHECK(error(references) < 1e-3);
+}
+
 TEST_CASE("tracking against an empty map, or in a tiny image, ends with the starting pose") {
   Track t;
   GaussianMap walls(t.device);
