@@ -225,7 +225,7 @@ esac
     CHECK_NOTHROW(schema.set(word));
     ++assignments;
   }
-  CHECK(assignments > 4 * 3 * 11);  // each run has its seed, and most a variant
+  CHECK(assignments > 4 * 3 * 14);  // each run has its seed, and most a variant
   // Done before, and again with other sizes.
   CHECK_FALSE(contains(ablate(""), "\n== ablations/office/full/seed1\n"));
   CHECK(read_file(folder / "calls.txt") == calls);
