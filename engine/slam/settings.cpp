@@ -16,7 +16,8 @@ void bind_tracking(ConfigSchema& schema, TrackingSettings& tracking) {
   schema.add(
       "tracking.method", &tracking.method,
       Choices<TrackingMethod>{{"gauss-newton", TrackingMethod::GaussNewton}, {"adam", TrackingMethod::Adam}},
-      "second-order alignment to a few renders, or the paper's gradient descent through the renderer");
+      "second-order alignment to a render and to keyframes, or the paper's gradient descent through the "
+      "renderer");
   schema.add("tracking.renders", &tracking.renders, Range{1, 1000},
              "gauss-newton: renders that a frame is aligned to, at most");
   schema.add("tracking.balance", &tracking.balance, kWeight,
@@ -152,7 +153,8 @@ void SlamSettings::bind(ConfigSchema& schema) {
              "adam: steps of the first tracked frame, at most");
   schema.add("depth_model", &depth_model,
              Choices<DepthModel>{{"centre", DepthModel::Centre}, {"plane", DepthModel::Plane}},
-             "depth of a Gaussian over its footprint: that of its centre, or that of a plane through it");
+             "depth of a Gaussian over its footprint: that of its centre, or that of a plane through it, "
+             "which surefield eval, mesh and render always take");
   bind_tracking(schema, tracking);
   bind_mapping(schema, mapping);
   bind_keyframes(schema, keyframes);

@@ -251,8 +251,9 @@ void Slam::Implementation::map_window(FrameReport& report) {
   const auto order = mapping_order(window, region.near(), settings.mapping_iterations,
                                    settings.keyframes.past_keyframes, random);
   std::vector<int> refined;
+  const bool refines = settings.mapping.rate_pose_rotation > 0 || settings.mapping.rate_pose_translation > 0;
   for (int member : window.members)
-    if (member != window.fixed) refined.push_back(member);
+    if (refines && member != window.fixed) refined.push_back(member);
   const auto middle = order.begin() + static_cast<std::ptrdiff_t>(order.size() / 2);
   optimise({order.begin(), middle}, refined, report);
   judge(window.members, report);
@@ -265,7 +266,7 @@ void Slam::Implementation::map_window(FrameReport& report) {
 /// Takes keyframes of the window, the newest first, as what frames are aligned to beside the map.
 void Slam::Implementation::align_to(std::vector<int> members) {
   std::reverse(members.begin(), members.end());
-  members.resize(std::min<std::size_t>(members.size(), settings.tracking.references));
+  members.resize(std::min<std::size_t>(members.size(), std::max(settings.tracking.references, 0)));
   reference_keyframes = std::move(members);
 }
 

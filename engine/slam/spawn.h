@@ -11,8 +11,8 @@ double scene_extent(const Frame& frame, double depth_max);
 
 /// New Gaussians for what `frame` sees and the map does not show (paper section 3.3): one per pixel with
 /// valid depth whose rendered opacity is low, or that lies well in front of the rendered surface. `rendered`
-/// is null for the first frame: every valid pixel spawns. Each is a sphere of about a pixel's footprint, of
-/// the pixel's colour.
+/// is null for the first frame: every valid pixel spawns. Each is a disc on the surface that the depth around
+/// shows, of about a pixel's footprint; a sphere where that shows none. It has the pixel's colour.
 GaussianCloud spawn_gaussians(const Frame& frame, const Camera& camera, const RenderImages* rendered,
                               const SpawnSettings& settings, double depth_max);
 

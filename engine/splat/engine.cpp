@@ -1,5 +1,6 @@
 #include "engine/splat/engine.h"
 
+#include <algorithm>
 #include <chrono>
 #include <stdexcept>
 
@@ -149,7 +150,11 @@ TrackingResult SplatEngine::track(FrameHandle frame, const Camera& start, const 
     return i.adam_tracker.track(i.rasteriser, i.tracking_loss, i.map, i.frames.on_device(frame), start,
                                 settings);
   std::vector<Camera> cameras;
-  for (const TrackingReference& reference : references) {
+  for (const TrackingReference& reference :
+       references.first(std::min(references.size(), GaussNewtonTracker::kReferences))) {
+    const Intrinsics& k = reference.camera.intrinsics;
+    if (k.width != start.intrinsics.width || k.height != start.intrinsics.height)
+      throw std::invalid_argument("a keyframe to align a frame to is not of the frame's size");
     if (!i.gauss_newton_tracker.holds(cameras.size(), reference.frame))
       i.gauss_newton_tracker.hold(cameras.size(), reference.frame, i.frames.on_device(reference.frame),
                                   reference.camera.intrinsics);

@@ -61,7 +61,8 @@ struct TrackingSettings {
   double stop_below = 2e-5;  ///< stop when steps of all pose numbers have become smaller (radians, metres)
 };
 
-/// A keyframe whose images a frame is aligned to beside the map, with its camera.
+/// A keyframe whose images a frame is aligned to beside the map, with its camera, whose intrinsics are the
+/// frame's.
 struct TrackingReference {
   FrameHandle frame = 0;
   Camera camera;
@@ -188,7 +189,8 @@ class SplatEngine {
   /// Renders the whole map: for that time it is on the device beyond the budget.
   RenderImages render_whole(const Camera& camera) const;
 
-  /// Finds the pose of a frame in the fixed map, starting from that of `start`.
+  /// Finds the pose of a frame in the fixed map, starting from that of `start`. Gauss-Newton aligns it to the
+  /// first four `references` too; Adam does not. Throws std::invalid_argument where one is of another size.
   TrackingResult track(FrameHandle frame, const Camera& start, const TrackingSettings& settings,
                        std::span<const TrackingReference> references = {});
 

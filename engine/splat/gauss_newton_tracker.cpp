@@ -62,6 +62,8 @@ GaussNewtonTracker::GaussNewtonTracker(gpu::Device& device)
       levels_{Level(device), Level(device), Level(device)} {}
 
 void GaussNewtonTracker::resize(gpu::Recorder& recorder, const ImageSize& size) {
+  const ImageSize& before = levels_[0].size;
+  if (before.width != size.width || before.height != size.height) held_ = {};
   ImageSize now = size;
   for (Level& level : levels_) {
     level.size = now;

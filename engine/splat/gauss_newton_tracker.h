@@ -16,10 +16,10 @@
 namespace surefield {
 
 /// Finds the pose of a frame in a fixed map by Gauss-Newton (docs/method.md, "Second-order tracking"). The
-/// map is rendered at the pose so far; the render's points are aligned to the frame, coarse to fine, by
-/// intensity and by their distance along the normal, with the weights of t-distributions; then the map is
-/// rendered again. A few renders take the place of dozens. Everything but the decision to stop is on the
-/// device.
+/// map is rendered at the pose so far; the points of the render, and of the images of some keyframes, are
+/// aligned to the frame, coarse to fine, by intensity and by their distance along the normal, with the
+/// weights of t-distributions; then the map is rendered again. One or a few renders take the place of dozens.
+/// Everything but the decision to stop is on the device.
 class GaussNewtonTracker {
  public:
   explicit GaussNewtonTracker(gpu::Device& device);
@@ -28,7 +28,8 @@ class GaussNewtonTracker {
   static constexpr std::size_t kReferences = glsl::ALIGN_REFERENCES;
   /// Whether a place holds the images of this frame.
   bool holds(std::size_t place, FrameHandle frame) const { return held_[place] == frame; }
-  /// Puts the images of a frame, taken with these intrinsics, in a place.
+  /// Puts the images of a frame, taken with these intrinsics, in a place; a change of size empties all
+  /// places.
   void hold(std::size_t place, FrameHandle handle, const SensorFrame& frame, const Intrinsics& intrinsics);
 
   /// Tracks `frame` from the pose of `start`; `references` are the cameras of the frames in the first places.

@@ -58,9 +58,6 @@ vec3 covariance_2d(vec3 row0, vec3 row1) {
   return vec3(dot(row0, row0) + BLUR, dot(row0, row1), dot(row1, row1) + BLUR);
 }
 
-/// What the covariance of a plane's depth is divided by may not vanish: pixels^2, added where depth's slope is computed.
-const float SLOPE_BLUR = 0.3;
-
 /// The slope of the depth over the footprint: the mean of z given u and v, where (u, v, z) is distributed as the projected
 /// Gaussian. It is Cov(z, uv) Cov(uv)^-1 with Cov(z, uv) = A V_z, V_z the third row of V.
 vec2 depth_slope_of(vec3 row0, vec3 row1, vec3 row2, vec3 inverse) {

@@ -1,4 +1,4 @@
-// The points and normals of a rendered image.
+// The points and normals of an image, rendered or a keyframe's.
 #include "align_types.h"
 
 #define PASS align_points

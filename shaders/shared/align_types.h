@@ -1,4 +1,4 @@
-// Records of the alignment of a frame to a render of the map (second-order tracking).
+// Records of the alignment of a frame to a render of the map and to keyframes (second-order tracking).
 #ifndef SUREFIELD_SHARED_ALIGN_TYPES_H
 #define SUREFIELD_SHARED_ALIGN_TYPES_H
 
@@ -6,9 +6,9 @@
 
 SHARED_TYPES_BEGIN
 
-/// A pixel of the render as the frame is aligned to it, in the camera frame that was rendered.
+/// A pixel of the render or of a keyframe as the frame is aligned to it, in the frame of the camera that saw it.
 struct AlignPoint {
-  float intensity;  // negative: not part of the photometric term
+  float intensity;
   float depth;      // 0: no part at all
   vec3 normal;      // unit length, towards the camera; 0 where there is none: not part of the geometric term
 };

@@ -42,8 +42,8 @@ AlignSums subgroup_sums(AlignSums s) {
   return s;
 }
 
-// One invocation per ALIGN_STRIP of the pixels that take part, `strips` times `stride` apart. A point of the render moves
-// with the camera and is looked up in the sensor's image: its intensity between four pixels, its depth at the nearest
+// One invocation per ALIGN_STRIP of the pixels that take part, `strips` times `stride` apart. A point of the render, or of a keyframe,
+// moves with the camera and is looked up in the sensor's image: its intensity between four pixels, its depth at the nearest
 // one. The residuals are the difference of intensity, and the distance to the point that the sensor measured along the
 // normal. Each subgroup writes one sum.
 void main() {

@@ -78,7 +78,7 @@ TEST_CASE("Adam on the map follows the reference, for visible Gaussians alone") 
   }
 }
 
-TEST_CASE("the isotropy loss adds its gradient") {
+TEST_CASE("the isotropy loss adds its gradient, above its epsilon alone") {
   gpu::Device& device = testing::device();
   Rasteriser rasteriser(device);
   GaussianMap map(device);
@@ -94,24 +94,37 @@ TEST_CASE("the isotropy loss adds its gradient") {
   rasteriser.record_forward(recorder, map, {{state.width, state.height}, camera, depth}, Outputs::All);
   recorder.submit();
   rasteriser.pixel_upstream.upload(std::vector<glsl::PixelUpstream>(state.width * state.height));
-  rasteriser.record_backward(recorder, map, {{state.width, state.height}, camera, depth}, {.weight = 0.7f});
-  recorder.submit();
+  int penalised[2] = {0, 0};
+  for (const float epsilon : {1.0f, 3.0f}) {
+    CAPTURE(epsilon);
+    rasteriser.record_backward(recorder, map, {{state.width, state.height}, camera, depth},
+                               {.weight = 0.7f, .epsilon = epsilon});
+    recorder.submit();
 
-  const uint32_t visible = rasteriser.lists.read_status().visible;
-  std::vector<uint8_t> flags(map.size(), 0);
-  for (uint32_t id : rasteriser.lists.visible_ids.download(visible)) flags[id] = 1;
-  const reference::Gaussians gaussians(scene.cloud);
-  const reference::Images images = reference::render(gaussians, scene.camera, {});
-  const auto want = reference::mapping_loss(
-      images, {scene.colour, scene.depth}, gaussians, flags,
-      {.colour = 0, .ssim = 0, .depth = 0, .align = 0, .isotropy = 0.7, .variance = 0});
-  const auto got = rasteriser.gaussian_gradients.download(map.size());
-  for (uint32_t i = 0; i < map.size(); ++i) {
-    if (!flags[i]) continue;
-    CHECK(got[i].log_scale.x == doctest::Approx(want.log_scales[i].x()).epsilon(1e-4));
-    CHECK(got[i].log_scale.y == doctest::Approx(want.log_scales[i].y()).epsilon(1e-4));
-    CHECK(got[i].log_scale.z == doctest::Approx(want.log_scales[i].z()).epsilon(1e-4));
+    const uint32_t visible = rasteriser.lists.read_status().visible;
+    std::vector<uint8_t> flags(map.size(), 0);
+    for (uint32_t id : rasteriser.lists.visible_ids.download(visible)) flags[id] = 1;
+    const reference::Gaussians gaussians(scene.cloud);
+    const reference::Images images = reference::render(gaussians, scene.camera, {});
+    const auto want = reference::mapping_loss(images, {scene.colour, scene.depth}, gaussians, flags,
+                                              {.colour = 0,
+                                               .ssim = 0,
+                                               .depth = 0,
+                                               .align = 0,
+                                               .isotropy = 0.7,
+                                               .variance = 0,
+                                               .isotropy_epsilon = epsilon});
+    const auto got = rasteriser.gaussian_gradients.download(map.size());
+    for (uint32_t i = 0; i < map.size(); ++i) {
+      if (!flags[i]) continue;
+      penalised[epsilon > 1] += want.log_scales[i].norm() > 0;
+      CHECK(got[i].log_scale.x == doctest::Approx(want.log_scales[i].x()).epsilon(1e-4));
+      CHECK(got[i].log_scale.y == doctest::Approx(want.log_scales[i].y()).epsilon(1e-4));
+      CHECK(got[i].log_scale.z == doctest::Approx(want.log_scales[i].z()).epsilon(1e-4));
+    }
   }
+  CHECK(penalised[1] > 0);
+  CHECK(penalised[1] < penalised[0]);
 }
 
 TEST_CASE("mapping lowers the loss and refines poses beside the map") {

@@ -105,6 +105,49 @@ TEST_CASE("a keyframe's own images pull the pose to where they fit, where the ma
   CHECK(error(references) < 1e-3);
 }
 
+TEST_CASE("the engine aligns frames to the keyframes that it is given, also when they or their size change") {
+  SplatEngine engine({.device = testing::device_options().selector});
+  const auto load = [&](const Camera& camera) {
+    const RenderImages images = engine.render(camera);
+    std::vector<uint8_t> colour;
+    for (float c : images.colour)
+      colour.push_back(static_cast<uint8_t>(std::lround(std::clamp(c, 0.0f, 1.0f) * 255)));
+    std::vector<float> depth = images.depth_normalised;
+    for (std::size_t i = 0; i < depth.size(); ++i)
+      if (images.opacity[i] < 0.95f) depth[i] = 0;
+    return engine.load({images.width, images.height, colour.data(), depth.data(), 10});
+  };
+  GaussianCloud shifted = wall(160, 120, 90);
+  for (Eigen::Vector3f& mean : shifted.means) mean.x() += 0.006f;
+  const TrackingSettings settings{.reference_weight = 100, .minimum_opacity = 0.9};
+  for (const double scale : {1.0, 0.5}) {
+    CAPTURE(scale);
+    engine.assign(wall(160, 120, 90));
+    const auto at = [&](double metres, double radians) {
+      Camera camera = moved(metres, radians);
+      camera.intrinsics = camera.intrinsics.scaled(scale);
+      return camera;
+    };
+    const Camera here = at(0, 0);
+    const FrameHandle frame = load(here);
+    std::vector<TrackingReference> keyframes;
+    for (const double metres : {0.02, -0.02, 0.03, 0.01, 0.015})
+      keyframes.push_back({load(at(metres, 0.01)), at(metres, 0.01)});
+    engine.assign(shifted);
+    const auto error = [&](std::span<const TrackingReference> references) {
+      return error_of(engine.track(frame, here, settings, references), here).metres;
+    };
+    const double alone = error({});
+    CHECK(alone > 4e-3);
+    CHECK(error(std::span(keyframes).first(2)) < alone / 2);
+    CHECK(error(std::span(keyframes).subspan(1, 3)) < alone / 2);
+    CHECK(error(keyframes) < alone / 2);
+    TrackingReference other = keyframes[0];
+    other.camera.intrinsics.width += 1;
+    CHECK_THROWS_AS(engine.track(frame, here, settings, std::span(&other, 1)), std::invalid_argument);
+  }
+}
+
 TEST_CASE("tracking against an empty map, or in a tiny image, ends with the starting pose") {
   Track t;
   GaussianMap walls(t.device);
