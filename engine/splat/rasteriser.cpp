@@ -66,7 +66,8 @@ Rasteriser::Rasteriser(gpu::Device& device, const TileShape& shape)
       forward_all_(device, shape.lanes, forward_constants(shape, true)),
       backward_(device, shape.lanes, {.TILE_W = shape.width, .TILE_H = shape.height, .LANES = shape.lanes}),
       reduce_pose_(device, kReduceWorkgroup),
-      instance_gradients_(device, "instance gradients"),
+      footprint_gradients_(device, "footprint gradients"),
+      layer_gradients_(device, "layer gradients"),
       pose_partials_(device, "partial pose gradients") {}
 
 Rasteriser::BackwardPasses& Rasteriser::backward_passes(int sh_degree) {
@@ -118,12 +119,14 @@ void Rasteriser::record_backward(gpu::Recorder& recorder, GaussianMap& map, cons
                                  const IsotropyTerm& isotropy) {
   const uint32_t subgroups = gpu::kWorkgroup / lists.shape().lanes;
   const uint64_t groups = map.size() / gpu::kWorkgroup + 1;
-  recorder.reserve(instance_gradients_, lists.instance_capacity());
+  recorder.reserve(footprint_gradients_, lists.instance_capacity());
+  recorder.reserve(layer_gradients_, lists.instance_capacity());
   recorder.reserve(pose_partials_, groups * subgroups);
   recorder.reserve(gaussian_gradients, map.size());
   recorder.reserve(sh_gradients, map.size() * static_cast<uint64_t>(sh_coefficients(map.sh_degree())));
   // A tile that stops early does not reach all of its instances: their sums are zero.
-  recorder.fill(instance_gradients_, lists.instance_capacity(), 0);
+  recorder.fill(footprint_gradients_, lists.instance_capacity(), 0);
+  recorder.fill(layer_gradients_, lists.instance_capacity(), 0);
   recorder.dispatch(backward_, lists.tiles_x(view.size), lists.tiles_y(view.size),
                     {.camera = view.camera,
                      .splats = lists.splats,
@@ -132,7 +135,8 @@ void Rasteriser::record_backward(gpu::Recorder& recorder, GaussianMap& map, cons
                      .tile_ranges = lists.tile_ranges,
                      .sensor_depth = view.sensor_depth,
                      .pixel_upstream = pixel_upstream,
-                     .instance_gradients = instance_gradients_},
+                     .footprint_gradients = footprint_gradients_,
+                     .layer_gradients = layer_gradients_},
                     {});
   recorder.dispatch_indirect(backward_passes(map.sh_degree()).project, lists.dispatch_args,
                              TileLists::kVisibleArgs,
@@ -146,7 +150,8 @@ void Rasteriser::record_backward(gpu::Recorder& recorder, GaussianMap& map, cons
                               .visible_ids = lists.visible_ids,
                               .instance_offsets = lists.instance_offsets,
                               .tile_counts = lists.tile_counts,
-                              .instance_gradients = instance_gradients_,
+                              .footprint_gradients = footprint_gradients_,
+                              .layer_gradients = layer_gradients_,
                               .gaussian_gradients = gaussian_gradients,
                               .sh_gradients = sh_gradients,
                               .pose_partials = pose_partials_,

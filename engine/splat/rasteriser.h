@@ -96,7 +96,8 @@ class Rasteriser {
   /// Per SH degree, kind of the pose's gradient and depth model, made when first needed.
   std::unique_ptr<BackwardPasses> backward_passes_[4][2][2];
 
-  gpu::Array<glsl::SplatGradient> instance_gradients_;
+  gpu::Array<glsl::FootprintGradient> footprint_gradients_;  ///< per instance, as the next
+  gpu::Array<glsl::LayerGradient> layer_gradients_;
   gpu::Array<glsl::PoseGradient> pose_partials_;
 };
 

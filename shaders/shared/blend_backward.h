@@ -11,5 +11,6 @@
   READ(4, uvec2, tile_ranges)                \
   READ(5, float, sensor_depth)               \
   READ(6, PixelUpstream, pixel_upstream)     \
-  WRITE(7, SplatGradient, instance_gradients)
+  WRITE(7, FootprintGradient, footprint_gradients) /* per instance */ \
+  WRITE(8, LayerGradient, layer_gradients)
 #include "declare_pass.h"

@@ -16,10 +16,11 @@
   READ(7, uint, visible_ids)                     \
   READ(8, uint, instance_offsets)                \
   READ(9, uint, tile_counts)                     \
-  READ(10, SplatGradient, instance_gradients)    \
-  WRITE(11, GaussianGradient, gaussian_gradients) \
-  WRITE(12, vec3, sh_gradients)                  \
-  WRITE(13, PoseGradient, pose_partials)         \
-  READ(14, RenderStatus, status)                 \
-  UPDATE(15, vec2, densification) /* sum of the norm of the screen gradient, times seen */
+  READ(10, FootprintGradient, footprint_gradients) /* per instance */ \
+  READ(11, LayerGradient, layer_gradients)       \
+  WRITE(12, GaussianGradient, gaussian_gradients) \
+  WRITE(13, vec3, sh_gradients)                  \
+  WRITE(14, PoseGradient, pose_partials)         \
+  READ(15, RenderStatus, status)                 \
+  UPDATE(16, vec2, densification) /* sum of the norm of the screen gradient, times seen */
 #include "declare_pass.h"

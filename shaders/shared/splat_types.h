@@ -41,6 +41,19 @@ struct SplatGradient {
   vec2 depth_first; // sum over pixels of dL/dz(d) d, with z(d) = depth + slope . d
 };
 
+/// A SplatGradient as it is stored for each instance, in two records: a device binds so many bytes of an array at once, and
+/// there are millions of instances.
+struct FootprintGradient {
+  float exponent;
+  vec2 first;
+  vec3 second;
+};
+struct LayerGradient {
+  vec3 colour;
+  float depth;
+  vec2 depth_first;
+};
+
 /// Gradient of the loss with respect to what is rendered at one pixel.
 struct PixelGradient {
   vec3 colour;

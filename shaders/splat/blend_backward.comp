@@ -26,7 +26,10 @@ void main() {
       my = stamp_of(splats[tile_gaussians[mine]]);
     }
     const SplatGradient total = visit_batch(my);
-    if (mine < range.y) instance_gradients[slot] = total;
+    if (mine < range.y) {
+      footprint_gradients[slot] = FootprintGradient(total.exponent, total.first, total.second);
+      layer_gradients[slot] = LayerGradient(total.colour, total.depth, total.depth_first);
+    }
     if (!tile_is_open()) break;
   }
 }

@@ -18,13 +18,14 @@ void main() {
     SplatGradient sum = SplatGradient(0.0, vec2(0), vec3(0), vec3(0), 0.0, vec2(0));
     const uint begin = instance_offsets[id], end = begin + tile_counts[id];
     for (uint slot = begin; slot < end; ++slot) {
-      const SplatGradient g = instance_gradients[slot];
-      sum.exponent += g.exponent;
-      sum.first += g.first;
-      sum.second += g.second;
-      sum.colour += g.colour;
-      sum.depth += g.depth;
-      sum.depth_first += g.depth_first;
+      const FootprintGradient f = footprint_gradients[slot];
+      sum.exponent += f.exponent;
+      sum.first += f.first;
+      sum.second += f.second;
+      const LayerGradient l = layer_gradients[slot];
+      sum.colour += l.colour;
+      sum.depth += l.depth;
+      sum.depth_first += l.depth_first;
     }
 
     const CameraState c = camera[0];
