@@ -11,6 +11,7 @@
 #include "engine/io/map_file.h"
 #include "engine/report/colour_maps.h"
 #include "engine/splat/engine.h"
+#include "engine/viewer/view_painter.h"
 #include "tools/command.h"
 
 namespace surefield {
@@ -29,23 +30,30 @@ constexpr const char* kRenderExamples =
     "from "
     "0\n"
     "(black) over 10 cm (red) to 20 cm (pale yellow); grey is where there is nothing.\n"
+    "With --mode, writes pictures for people instead, one PNG named after each mode (docs/viewer.md).\n"
     "The camera is JSON: width, height, fx, fy, cx, cy (pixels, centres at integers) and world_to_camera "
     "(four\n"
     "rows of four numbers).\n"
     "\n"
-    "Example:\n"
+    "Examples:\n"
     "  surefield render --map out/demo/map.ply --camera camera.json --out out/view\n"
     "  surefield render --map map.ply --camera camera.json --out view --sensor-depth depth.png --depth-scale "
-    "5000\n";
+    "5000\n"
+    "  surefield render --map map.ply --camera camera.json --out view --mode depth --mode ellipsoids\n"
+    "  surefield render --map map.ply --camera camera.json --out view --mode error --sensor-colour rgb.png\n";
 
+constexpr const char* kAllModes = "all";
 constexpr double kPaleYellow = 0.2;  // metres, the end of the scale of gaussian_uncertainty.png
 
 struct RenderOptions {
   std::string map;
   std::string camera;
   std::string out;
-  std::string sensor_depth;  ///< empty: none
-  double depth_scale = 0;    ///< steps per metre
+  std::string sensor_depth;        ///< empty: none
+  double depth_scale = 0;          ///< steps per metre
+  std::string sensor_colour;       ///< empty: none
+  std::vector<std::string> modes;  ///< empty: values and not pictures
+  ViewSettings view;
   EngineOptions engine;
 };
 
@@ -115,6 +123,60 @@ void write_images(const std::filesystem::path& folder, RenderImages& images) {
   write("dominator.tiff", dominator);
 }
 
+cv::Mat read_sensor_colour(const std::string& file, const Intrinsics& intrinsics) {
+  const cv::Mat colour = read_colour(file);
+  if (colour.cols != intrinsics.width || colour.rows != intrinsics.height)
+    throw InputError(file, fmt::format("is {} x {}, but the camera is {} x {}", colour.cols, colour.rows,
+                                       intrinsics.width, intrinsics.height));
+  return colour;
+}
+
+/// The option whose file the mode needs; nullptr where there is none missing.
+const char* missing_for(ViewMode mode, const RenderOptions& options) {
+  if (mode == ViewMode::Uncertainty) return options.sensor_depth.empty() ? "--sensor-depth" : nullptr;
+  if (!info_of(mode).needs_sensor) return nullptr;
+  return options.sensor_colour.empty() ? "--sensor-colour" : nullptr;
+}
+
+/// The modes that the user asks for; "all" are those for which there is what they need.
+std::vector<ViewMode> chosen_modes(const RenderOptions& options) {
+  std::vector<ViewMode> modes;
+  for (const ViewModeInfo& info : view_modes()) {
+    const auto asked = [&](const char* name) {
+      return std::find(options.modes.begin(), options.modes.end(), name) != options.modes.end();
+    };
+    const char* missing = missing_for(info.mode, options);
+    if (asked(info.name) && missing) throw InputError(fmt::format("--mode {} needs {}", info.name, missing));
+    if (asked(info.name) || (asked(kAllModes) && !missing)) modes.push_back(info.mode);
+  }
+  return modes;
+}
+
+void write_pictures(const RenderOptions& options, const Camera& camera, const GaussianCloud& cloud,
+                    std::vector<float> sensor_depth) {
+  const std::vector<ViewMode> modes = chosen_modes(options);
+  const Intrinsics& k = camera.intrinsics;
+  cv::Mat colour(k.height, k.width, CV_8UC3, cv::Scalar::all(0));
+  if (!options.sensor_colour.empty()) colour = read_sensor_colour(options.sensor_colour, k);
+  sensor_depth.resize(static_cast<std::size_t>(k.width) * k.height, 0.0f);
+  gpu::Device device({.selector = options.engine.device, .validate = options.engine.validate});
+  ViewPainter painter(device);
+  painter.assign(cloud);
+  painter.set_sensor({.width = k.width,
+                      .height = k.height,
+                      .colour = colour.data,
+                      .depth = sensor_depth.data(),
+                      .depth_max = std::numeric_limits<float>::max()},
+                     k);
+  for (ViewMode mode : modes) {
+    ViewSettings view = options.view;
+    view.mode = mode;
+    painter.paint(camera, view);
+    write_png(std::filesystem::path(options.out) / fmt::format("{}.png", info_of(mode).name),
+              painter.picture());
+  }
+}
+
 int render(const RenderOptions& options) {
   const Camera camera = read_camera(options.camera);
   std::vector<float> sensor_depth;
@@ -123,6 +185,10 @@ int render(const RenderOptions& options) {
   std::error_code error;
   std::filesystem::create_directories(options.out, error);
   if (error) throw InputError(options.out, "cannot be created: " + error.message());
+  if (!options.modes.empty()) {
+    write_pictures(options, camera, cloud, std::move(sensor_depth));
+    return kSuccess;
+  }
   SplatEngine engine(options.engine);
   engine.assign(cloud);
   RenderImages images = sensor_depth.empty() ? engine.render(camera)
@@ -148,6 +214,19 @@ void add_render(CLI::App& program, Action& action) {
       command->add_option("--depth-scale", options->depth_scale,
                           "Steps per metre of the sensor depth (metres = value / scale): 5000 for TUM RGB-D");
   depth->needs(scale);
+  std::vector<std::string> modes = {kAllModes};
+  for (const ViewModeInfo& info : view_modes()) modes.push_back(info.name);
+  command
+      ->add_option("--mode", options->modes,
+                   "Writes a picture of this mode instead of values; may be given several times")
+      ->check(CLI::IsMember(modes))
+      ->allow_extra_args(false)
+      ->take_all();
+  command->add_option("--sensor-colour", options->sensor_colour,
+                      "Image of the camera's size, for the modes sensor and error");
+  command->add_option("--far", options->view.depth_far, "Modes of depth: where the colours end, metres")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
   command->add_option("--device", options->engine.device,
                       "Number or part of the name of the device, see surefield devices; default: the best");
   command->footer(kRenderExamples);

@@ -97,11 +97,15 @@ Rasteriser::BackwardPasses& Rasteriser::backward_passes(int sh_degree) {
 
 void Rasteriser::record_forward(gpu::Recorder& recorder, const GaussianMap& map, const View& view,
                                 Outputs outputs) {
+  recorder.reserve(pixel_upstream, view.size.pixels());
+  lists.record(recorder, map, view.camera, view.size, view.uncertainty_above);
+  record_blending(recorder, view, outputs);
+}
+
+void Rasteriser::record_blending(gpu::Recorder& recorder, const View& view, Outputs outputs) {
   recorder.reserve(colour_opacity, view.size.pixels());
   recorder.reserve(geometry, view.size.pixels());
   recorder.reserve(dominators, view.size.pixels());
-  recorder.reserve(pixel_upstream, view.size.pixels());
-  lists.record(recorder, map, view.camera, view.size, view.uncertainty_above);
   recorder.dispatch(outputs == Outputs::All ? forward_all_ : forward_, lists.tiles_x(view.size),
                     lists.tiles_y(view.size),
                     {.camera = view.camera,

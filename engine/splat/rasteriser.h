@@ -49,6 +49,10 @@ class Rasteriser {
   /// Renders the map into the images below.
   void record_forward(gpu::Recorder& recorder, const GaussianMap& map, const View& view, Outputs outputs);
 
+  /// The second half of record_forward(): blends the splats of `lists`, which the caller has recorded and may
+  /// have changed.
+  void record_blending(gpu::Recorder& recorder, const View& view, Outputs outputs);
+
   /// After record_forward() of the same view with Outputs::All, and with pixel_upstream filled: gradients of
   /// every visible Gaussian and of the pose. `isotropy` adds that of w L_iso (paper eq. 17).
   void record_backward(gpu::Recorder& recorder, GaussianMap& map, const View& view,

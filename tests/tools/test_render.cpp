@@ -75,6 +75,38 @@ TEST_CASE("render writes every output with the values that the formulas give") {
   CHECK(screen == cv::Vec3b(204, 0, 0));
 }
 
+TEST_CASE("render --mode writes a picture of each mode that was asked for, and nothing else") {
+  const TemporaryFolder folder;
+  write_ply(folder / "map.ply", two_gaussians());
+  const auto camera = folder.write("camera.json", kCamera);
+  write_png(folder / "sensor.png", cv::Mat(48, 64, CV_8UC3, cv::Scalar(10, 20, 30)));
+  const auto render = [&](std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), {"render", "--map", folder / "map.ply", "--camera", camera});
+    return surefield_command(arguments, folder.path());
+  };
+  const Outcome all =
+      render({"--out", folder / "all", "--mode", "all", "--sensor-colour", folder / "sensor.png"});
+  CHECK_MESSAGE(all.code == 0, all.err);
+  std::size_t written = 0;
+  for (const auto& file : std::filesystem::directory_iterator(folder.path() / "all"))
+    written += file.path().extension() == ".png";
+  CHECK(written == 10);  // all but the uncertainty of the depth, for which there is no depth
+  CHECK(read_colour(folder / "all/colour.png").at<cv::Vec3b>(24, 32) == cv::Vec3b(204, 0, 0));
+  CHECK(read_colour(folder / "all/sensor.png").at<cv::Vec3b>(24, 32) == cv::Vec3b(10, 20, 30));
+  CHECK(read_colour(folder / "all/opacity.png").at<cv::Vec3b>(24, 32) == cv::Vec3b(204, 204, 204));
+
+  const Outcome two =
+      render({"--out", folder / "two", "--mode", "points", "--mode", "median-depth", "--far", "2"});
+  CHECK_MESSAGE(two.code == 0, two.err);
+  CHECK(std::filesystem::exists(folder.path() / "two/points.png"));
+  CHECK_FALSE(std::filesystem::exists(folder.path() / "two/colour.png"));
+  CHECK(read_colour(folder / "two/median-depth.png").at<cv::Vec3b>(24, 32) == cv::Vec3b(122, 4, 3));
+
+  const Outcome without = render({"--out", folder / "no", "--mode", "error"});
+  CHECK(without.code == 2);
+  CHECK(contains(without.err, "--mode error needs --sensor-colour"));
+}
+
 TEST_CASE("render refuses input that does not fit") {
   const TemporaryFolder folder;
   write_ply(folder / "map.ply", two_gaussians());
