@@ -19,6 +19,7 @@ constexpr const char* kMeshExamples =
     "\n"
     "Examples:\n"
     "  surefield mesh --run out/desk --out desk.ply\n"
+    "  surefield mesh --run out/desk --out desk.glb\n"
     "  surefield mesh --run out/desk --source sensor --voxel 0.02 --truncation 0.08 --out desk.ply\n"
     "  surefield mesh --dataset Replica/room0 --source sensor --trajectory true --out room0.ply\n";
 
@@ -49,7 +50,9 @@ void add_mesh(CLI::App& program, Action& action) {
   mesh->add_option("--depth-max", options->depth_max,
                    "Leaves out depth beyond, metres; default: as configured for the run or the dataset")
       ->check(CLI::PositiveNumber);
-  mesh->add_option("--out", options->out, "PLY file of the mesh")->required();
+  mesh->add_option("--out", options->out,
+                   "File of the mesh; its ending names the format, .ply or .glb (glTF)")
+      ->required();
   mesh->add_option("--device", options->engine.device,
                    "Number or part of the name of the device, see surefield devices; default: the best");
   mesh->footer(kMeshExamples);

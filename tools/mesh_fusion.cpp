@@ -4,10 +4,13 @@
 
 #include <chrono>
 #include <cmath>
+#include <filesystem>
 #include <functional>
 #include <optional>
+#include <string>
 
 #include "engine/io/error.h"
+#include "engine/io/glb.h"
 #include "engine/io/map_file.h"
 #include "tools/command.h"
 #include "tools/interrupt.h"
@@ -93,6 +96,9 @@ double depth_limit(const MeshOptions& options, const Input& input) {
 }
 
 void check(const MeshOptions& options) {
+  const std::string ending = std::filesystem::path(options.out).extension().string();
+  if (ending != ".ply" && ending != ".glb")
+    throw InputError(options.out, "has no ending of a mesh format; name it .ply or .glb");
   if (options.run.empty() && options.source == MeshSource::Rendered) {
     throw InputError("rendered depth needs the map of a run: give --run, or --source sensor");
   }
@@ -206,7 +212,11 @@ int fuse_mesh(const MeshOptions& options) {
     throw InputError("no surface was found: no valid depth within " + fmt::format("{}", input.depth_max) +
                      " m in any frame; is the depth scale of the dataset right?");
   }
-  write_mesh(options.out, mesh);
+  if (std::filesystem::path(options.out).extension() == ".glb") {
+    write_glb(options.out, mesh);
+  } else {
+    write_mesh(options.out, mesh);
+  }
   fmt::print("frames fused     {} of {}, {:.1f} s\n", fused, input.views.size(), seconds);
   fmt::print("distance field   {} blocks, {:.1f} MB\n", volume.blocks(),
              static_cast<double>(volume.bytes()) / 1e6);

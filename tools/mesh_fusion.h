@@ -20,7 +20,7 @@ struct MeshOptions {
   TsdfSettings fusion;
   int stride = 1;        ///< takes every so many frames
   double depth_max = 0;  ///< metres; 0: as configured for the run or the dataset
-  std::string out;       ///< PLY file
+  std::string out;       ///< PLY or GLB file
   EngineOptions engine;
 };
 

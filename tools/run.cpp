@@ -46,7 +46,7 @@ void add_run(CLI::App& program, Action& action) {
   run->add_option("--map-format", options->map_format,
                   "How the map is stored: as 32-bit floats that any splat viewer opens, or compactly "
                   "(docs/formats.md)")
-      ->check(CLI::IsMember(map_formats()))
+      ->check(CLI::IsMember(run_map_formats()))
       ->capture_default_str();
   run->add_option("--config", options->config,
                   "YAML file, or the name of a built-in one; default: the built-in one of the format");

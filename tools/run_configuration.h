@@ -16,7 +16,7 @@ struct RunOptions {
   std::string config;                    ///< a file; empty: the built-in one of the format
   std::vector<std::string> assignments;  ///< "key=value", applied after the file
   std::string out;                       ///< folder of the results
-  std::string map_format = "ply";        ///< one of map_formats()
+  std::string map_format = "ply";        ///< one of run_map_formats()
   FrameSelection selection;
   EngineOptions engine;
   bool quiet = false;

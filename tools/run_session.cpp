@@ -205,7 +205,7 @@ std::optional<MapQuality> measure_images(const RunRecord& record, const Slam& sl
 
 /// Saves the map in one format and removes what an earlier run left in another, which is not this run's map.
 void save_map(Results& results, const std::string& format, const GaussianCloud& map) {
-  for (const std::string& other : map_formats()) {
+  for (const std::string& other : run_map_formats()) {
     std::error_code ignored;
     if (other != format) std::filesystem::remove(results.folder() / ("map." + other), ignored);
   }

@@ -3,6 +3,7 @@
 #include <fstream>
 
 #include "engine/io/error.h"
+#include "engine/io/glb.h"
 #include "engine/io/gzip.h"
 #include "engine/io/ply.h"
 #include "engine/io/spz.h"
@@ -21,8 +22,25 @@ bool is_spz(const std::filesystem::path& file) {
 
 }  // namespace
 
-std::vector<std::string> map_formats() {
+const std::map<std::string, MapFormat>& map_formats() {
+  static const std::map<std::string, MapFormat> formats = {{"ply", MapFormat::Ply},
+                                                           {"cply", MapFormat::CompressedPly},
+                                                           {"spz", MapFormat::Spz},
+                                                           {"glb", MapFormat::Glb},
+                                                           {"points", MapFormat::Points}};
+  return formats;
+}
+
+std::vector<std::string> run_map_formats() {
   return {"ply", "spz"};
+}
+
+MapFormat map_format_of(const std::filesystem::path& file) {
+  if (file.filename().string().ends_with(".compressed.ply")) return MapFormat::CompressedPly;
+  if (file.extension() == ".ply") return MapFormat::Ply;
+  if (file.extension() == ".spz") return MapFormat::Spz;
+  if (file.extension() == ".glb") return MapFormat::Glb;
+  throw InputError(file, "has no ending of a map format; name it .ply, .compressed.ply, .spz or .glb");
 }
 
 MapFile read_map(const std::filesystem::path& file) {
@@ -31,10 +49,23 @@ MapFile read_map(const std::filesystem::path& file) {
   return {std::move(ply.cloud), ply.dropped};
 }
 
+void write_map(const std::filesystem::path& file, const GaussianCloud& cloud, MapFormat format) {
+  switch (format) {
+    case MapFormat::Ply:
+      return write_ply(file, cloud);
+    case MapFormat::CompressedPly:
+      return write_compressed_ply(file, cloud);
+    case MapFormat::Spz:
+      return write_spz(file, cloud);
+    case MapFormat::Glb:
+      return write_glb(file, cloud);
+    case MapFormat::Points:
+      return write_point_cloud(file, cloud);
+  }
+}
+
 void write_map(const std::filesystem::path& file, const GaussianCloud& cloud) {
-  if (file.extension() == ".ply") return write_ply(file, cloud);
-  if (file.extension() == ".spz") return write_spz(file, cloud);
-  throw InputError(file, "has no ending of a map format; name it .ply or .spz");
+  write_map(file, cloud, map_format_of(file));
 }
 
 }  // namespace surefield

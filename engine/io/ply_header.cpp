@@ -63,9 +63,12 @@ class HeaderParser {
 
   void finish() const {
     if (!has_format_) throw InputError(file_, "its PLY header names no format");
-    if (header_.elements.empty()) throw InputError(file_, "its PLY header has no element vertex");
-    if (header_.vertices().properties.empty()) {
-      throw InputError(file_, "its PLY header gives the vertices no property");
+    if (header_.elements.empty() || (header_.is_compressed() && header_.elements.size() < 2)) {
+      throw InputError(file_, "its PLY header has no element vertex");
+    }
+    for (const PlyElement& element : header_.elements) {
+      if (!element.properties.empty()) continue;
+      throw InputError(file_, "its PLY header gives the element " + element.name + " no property");
     }
   }
 
@@ -84,7 +87,9 @@ class HeaderParser {
     PlyElement element;
     std::string count;
     words >> element.name >> count;
-    if (header_.elements.empty() && element.name != "vertex") {
+    const bool may_be_chunk = header_.elements.empty();
+    const bool must_be_vertex = may_be_chunk || (header_.elements.size() == 1 && header_.is_compressed());
+    if (must_be_vertex && element.name != "vertex" && !(may_be_chunk && element.name == "chunk")) {
       fail("the first element must be vertex, it is \"" + element.name + "\"");
     }
     const auto [end, error] = std::from_chars(count.data(), count.data() + count.size(), element.count);
@@ -123,19 +128,27 @@ class HeaderParser {
   bool has_format_ = false;
 };
 
-/// Refuses a count that the file cannot hold, so that a damaged header asks for no absurd amount of memory.
+/// The fewest bytes that a record of the element takes.
+std::size_t shortest_record(const PlyElement& element, bool is_ascii) {
+  if (is_ascii) return 2 * element.properties.size();  // a digit and a separator each
+  std::size_t bytes = 0;
+  for (const PlyProperty& property : element.properties)
+    bytes += ply_type_size(property.list_length.value_or(property.type));
+  return bytes;
+}
+
+/// Refuses counts that the file cannot hold, so that a damaged header asks for no absurd amount of memory.
 void check_length(const std::filesystem::path& file, const PlyHeader& header) {
-  const std::size_t data = std::filesystem::file_size(file) - header.data_offset;
-  const PlyElement& vertices = header.vertices();
-  // The shortest ASCII vertex has one digit and one separator per value; the last separator may be missing.
-  std::size_t shortest = 2 * vertices.properties.size();
-  if (!header.is_ascii) {
-    shortest = 0;
-    for (const PlyProperty& property : vertices.properties) shortest += ply_type_size(property.type);
-  }
-  if (vertices.count > (data + (header.is_ascii ? 1 : 0)) / shortest) {
-    throw InputError(file, "holds fewer vertices than its header says (" + std::to_string(vertices.count) +
-                               "); the file is cut off");
+  std::size_t data = std::filesystem::file_size(file) - header.data_offset;
+  if (header.is_ascii) ++data;  // the last separator may be missing
+  for (const PlyElement& element : header.elements) {
+    const std::size_t shortest = shortest_record(element, header.is_ascii);
+    if (element.count > data / shortest) {
+      throw InputError(file, "holds fewer " + (element.name == "vertex" ? "vertices" : element.name + "s") +
+                                 " than its header says (" + std::to_string(element.count) +
+                                 "); the file is cut off");
+    }
+    data -= element.count * shortest;
   }
 }
 

@@ -31,16 +31,18 @@ struct PlyElement {
   std::optional<std::size_t> find(const std::string& property) const;
 };
 
-/// The header of a PLY file whose first element is `vertex`, with scalar properties only.
+/// The header of a PLY file whose first element is `vertex`, with scalar properties only; in compressed
+/// clouds `chunk` stands before it.
 struct PlyHeader {
   bool is_ascii = false;             ///< else binary little endian
   std::vector<PlyElement> elements;  ///< in the order of their records; at least one
-  std::size_t data_offset = 0;       ///< of the first vertex, bytes from the start of the file
+  std::size_t data_offset = 0;       ///< of the first record, bytes from the start of the file
 
-  const PlyElement& vertices() const { return elements.front(); }
+  bool is_compressed() const { return elements.front().name == "chunk"; }
+  const PlyElement& vertices() const { return elements[is_compressed() ? 1 : 0]; }
 };
 
-/// Reads a header and checks that the file is long enough for its vertices. Throws InputError.
+/// Reads a header and checks that the file is long enough for its records. Throws InputError.
 PlyHeader read_ply_header(const std::filesystem::path& file);
 
 }  // namespace surefield

@@ -5,6 +5,7 @@
 
 #include "engine/io/error.h"
 #include "engine/io/ply.h"
+#include "engine/io/ply_compressed.h"
 #include "engine/io/ply_header.h"
 #include "engine/io/ply_records.h"
 
@@ -74,6 +75,7 @@ bool append(const std::vector<float>& values, float uncertainty, GaussianCloud& 
 
 PlyCloud read_ply(const std::filesystem::path& file) {
   const PlyHeader header = read_ply_header(file);
+  if (header.is_compressed()) return read_compressed_ply(file, header);
   const PlyElement& vertices = header.vertices();
   const GaussianLayout layout = find_layout(file, vertices);
   PlyCloud result;

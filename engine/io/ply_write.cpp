@@ -3,7 +3,9 @@
 
 #include <stdexcept>
 #include "engine/io/files.h"
+#include "engine/io/gaussian_order.h"
 #include "engine/io/ply.h"
+#include "engine/io/rounded_values.h"
 
 static_assert(std::endian::native == std::endian::little,
               "PLY files are written in the byte order of the machine");
@@ -56,6 +58,26 @@ void write_ply(const std::filesystem::path& file, const GaussianCloud& cloud) {
       fill_record(cloud, i, record);
       stream.write(reinterpret_cast<const char*>(record.data()),
                    static_cast<std::streamsize>(record.size() * sizeof(float)));
+    }
+  });
+}
+
+void write_point_cloud(const std::filesystem::path& file, const GaussianCloud& cloud) {
+  if (!cloud.is_consistent())
+    throw std::logic_error("write_point_cloud: the arrays of the cloud differ in length");
+  const std::vector<std::size_t> finite = finite_gaussians(cloud);
+  const auto stride = static_cast<std::size_t>(sh_coefficients(cloud.sh_degree)) * 3;
+  write_file(file, [&](std::ostream& stream) {
+    stream
+        << "ply\nformat binary_little_endian 1.0\nelement vertex " << finite.size()
+        << "\nproperty float x\nproperty float y\nproperty float z\nproperty uchar red\nproperty uchar green"
+           "\nproperty uchar blue\nproperty float opacity\nend_header\n";
+    for (std::size_t i : finite) {
+      stream.write(reinterpret_cast<const char*>(cloud.means[i].data()), 3 * sizeof(float));
+      for (std::size_t channel = 0; channel < 3; ++channel)
+        stream.put(static_cast<char>(to_byte(255 * (kHarmonic0 * cloud.sh[i * stride + channel] + 0.5f))));
+      const float opacity = opacity_of(cloud.opacity_logits[i]);
+      stream.write(reinterpret_cast<const char*>(&opacity), sizeof(opacity));
     }
   });
 }

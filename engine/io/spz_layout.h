@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 
@@ -27,12 +26,5 @@ struct Header {
   uint8_t reserved = 0;
 };
 static_assert(sizeof(Header) == kHeaderBytes);
-
-/// The file's axes point right, up and back; ours, like those of PLY files, right, down and front. Going from
-/// one to the other turns y and z, and with them these components.
-constexpr std::array<float, 3> kAxisSigns = {1, -1, -1};
-
-/// Signs of the SH coefficients of degree 1 to 3 when y and z turn: that of each basis polynomial.
-constexpr std::array<float, 15> kShSigns = {-1, -1, 1, -1, 1, 1, -1, 1, -1, 1, -1, -1, 1, -1, 1};
 
 }  // namespace surefield::spz

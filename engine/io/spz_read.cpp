@@ -8,8 +8,10 @@
 #include "engine/io/error.h"
 #include "engine/io/files.h"
 #include "engine/io/gzip.h"
+#include "engine/io/rounded_values.h"
 #include "engine/io/spz.h"
 #include "engine/io/spz_layout.h"
+#include "engine/io/turned_axes.h"
 
 static_assert(std::endian::native == std::endian::little,
               "SPZ files are read in the byte order of the machine");
@@ -21,8 +23,6 @@ namespace {
 using Bytes = std::vector<uint8_t>;
 
 constexpr uint32_t kNewest = 3;
-constexpr float kInvisible = 0.25f,
-                kOpaque = 254.75f;  // what the bytes 0 and 255 are taken for: finite logits
 
 std::string read_compressed(const std::filesystem::path& file) {
   std::string compressed = read_file(file);
@@ -100,7 +100,7 @@ void read_shapes(GzipReader& gzip, const spz::Header& header, GaussianCloud& clo
           static_cast<float>(scales[3 * i + axis]) / spz::kScaleSteps - spz::kScaleOffset;
     const uint8_t* bytes = rotations.data() + width * i;
     Eigen::Vector4f q = header.version == 2 ? rotation_of_three(bytes) : rotation_of_smallest(bytes);
-    for (int axis = 0; axis < 3; ++axis) q[axis + 1] *= spz::kAxisSigns[static_cast<std::size_t>(axis)];
+    for (int axis = 0; axis < 3; ++axis) q[axis + 1] *= kTurnedAxes[static_cast<std::size_t>(axis)];
     cloud.rotations[i] = q;
   }
 }
@@ -113,7 +113,7 @@ void read_harmonics(GzipReader& gzip, GaussianCloud& cloud) {
     for (std::size_t k = 1; k < coefficients; ++k)
       for (std::size_t channel = 0; channel < 3; ++channel)
         cloud.sh[(i * coefficients + k) * 3 + channel] =
-            (static_cast<float>(bytes[next++]) - 128) / 128 * spz::kShSigns[k - 1];
+            (static_cast<float>(bytes[next++]) - 128) / 128 * kTurnedHarmonics[k - 1];
 }
 
 void read_looks(GzipReader& gzip, GaussianCloud& cloud) {
@@ -121,8 +121,7 @@ void read_looks(GzipReader& gzip, GaussianCloud& cloud) {
   const Bytes colours = gzip.read(3 * cloud.size());
   const auto stride = static_cast<std::size_t>(sh_coefficients(cloud.sh_degree)) * 3;
   for (std::size_t i = 0; i < cloud.size(); ++i) {
-    const float alpha = std::clamp(static_cast<float>(alphas[i]), kInvisible, kOpaque);
-    cloud.opacity_logits[i] = std::log(alpha / (255 - alpha));
+    cloud.opacity_logits[i] = logit_of_byte(alphas[i]);
     for (std::size_t channel = 0; channel < 3; ++channel)
       cloud.sh[i * stride + channel] =
           (static_cast<float>(colours[3 * i + channel]) / 255 - 0.5f) / spz::kColourScale;
@@ -142,7 +141,7 @@ GaussianCloud read_spz(const std::filesystem::path& file) {
   for (std::size_t i = 0; i < cloud.size(); ++i)
     for (std::size_t axis = 0; axis < 3; ++axis)
       cloud.means[i][static_cast<Eigen::Index>(axis)] =
-          coordinate(positions.data() + 9 * i + 3 * axis, header.fractional_bits) * spz::kAxisSigns[axis];
+          coordinate(positions.data() + 9 * i + 3 * axis, header.fractional_bits) * kTurnedAxes[axis];
   read_looks(gzip, cloud);
   read_shapes(gzip, header, cloud);
   read_harmonics(gzip, cloud);

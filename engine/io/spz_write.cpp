@@ -8,9 +8,12 @@
 
 #include "engine/io/error.h"
 #include "engine/io/files.h"
+#include "engine/io/gaussian_order.h"
 #include "engine/io/gzip.h"
+#include "engine/io/rounded_values.h"
 #include "engine/io/spz.h"
 #include "engine/io/spz_layout.h"
+#include "engine/io/turned_axes.h"
 
 static_assert(std::endian::native == std::endian::little,
               "SPZ files are written in the byte order of the machine");
@@ -23,20 +26,8 @@ using Bytes = std::vector<uint8_t>;
 
 constexpr int kUsualFractionalBits = 12;
 constexpr float kLargestCoordinate = (1 << 23) - 1;
-constexpr int kSteps1 = 8, kStepsAbove = 16;  // SH bytes are multiples of these: 5 bits for degree 1, 4 above
-
-/// The nearest byte; 0 for NaN.
-uint8_t to_byte(float value) {
-  return value > 0 ? static_cast<uint8_t>(std::min(std::round(value), 255.0f)) : uint8_t{0};
-}
-
-bool is_finite(const GaussianCloud& cloud, std::size_t i) {
-  const auto stride = static_cast<std::ptrdiff_t>(sh_coefficients(cloud.sh_degree)) * 3;
-  const auto sh = cloud.sh.begin() + static_cast<std::ptrdiff_t>(i) * stride;
-  return cloud.means[i].allFinite() && cloud.log_scales[i].allFinite() && cloud.rotations[i].allFinite() &&
-         std::isfinite(cloud.opacity_logits[i]) &&
-         std::all_of(sh, sh + stride, [](float value) { return std::isfinite(value); });
-}
+constexpr float kSteps1 = 8,
+                kStepsAbove = 16;  // SH bytes are multiples of these: 5 bits for degree 1, 4 above
 
 /// The bits after the point: the usual number, or fewer where a coordinate would not fit.
 int fractional_bits(const std::filesystem::path& file, const GaussianCloud& cloud) {
@@ -54,7 +45,7 @@ Bytes positions(const GaussianCloud& cloud, int bits) {
   Bytes bytes;
   for (const Eigen::Vector3f& mean : cloud.means)
     for (int axis = 0; axis < 3; ++axis) {
-      const float steps = mean[axis] * spz::kAxisSigns[axis] * static_cast<float>(1 << bits);
+      const float steps = mean[axis] * kTurnedAxes[axis] * static_cast<float>(1 << bits);
       const auto fixed = static_cast<uint32_t>(std::isfinite(steps) ? std::lround(steps) : 0);
       for (int shift : {0, 8, 16}) bytes.push_back(static_cast<uint8_t>(fixed >> shift));
     }
@@ -65,8 +56,7 @@ Bytes positions(const GaussianCloud& cloud, int bits) {
 Bytes opacities(const GaussianCloud& cloud) {
   Bytes bytes;
   for (std::size_t i = 0; i < cloud.size(); ++i)
-    bytes.push_back(is_finite(cloud, i) ? to_byte(255 / (1 + std::exp(-cloud.opacity_logits[i])))
-                                        : uint8_t{0});
+    bytes.push_back(is_finite(cloud, i) ? to_byte(255 * opacity_of(cloud.opacity_logits[i])) : uint8_t{0});
   return bytes;
 }
 
@@ -105,7 +95,7 @@ Bytes rotations(const GaussianCloud& cloud) {
   for (const Eigen::Vector4f& rotation : cloud.rotations) {
     const Eigen::Vector4f q = with_large_w(rotation);
     for (int axis = 0; axis < 3; ++axis)
-      bytes.push_back(to_byte(127.5f * (q[axis + 1] * spz::kAxisSigns[axis] + 1)));
+      bytes.push_back(to_byte(127.5f * (q[axis + 1] * kTurnedAxes[axis] + 1)));
   }
   return bytes;
 }
@@ -116,7 +106,7 @@ Bytes harmonics(const GaussianCloud& cloud) {
   for (std::size_t i = 0; i < cloud.size(); ++i)
     for (std::size_t k = 1; k < coefficients; ++k)
       for (std::size_t channel = 0; channel < 3; ++channel) {
-        const float value = cloud.sh[(i * coefficients + k) * 3 + channel] * spz::kShSigns[k - 1];
+        const float value = cloud.sh[(i * coefficients + k) * 3 + channel] * kTurnedHarmonics[k - 1];
         const float step = k < 4 ? kSteps1 : kStepsAbove;
         bytes.push_back(to_byte(std::round((128 * value + 128) / step) * step));
       }

@@ -114,6 +114,7 @@ std::string face_bytes(const TriangleMesh& mesh) {
 
 TriangleMesh read_mesh(const Path& file) {
   const PlyHeader header = read_ply_header(file);
+  if (header.is_compressed()) throw InputError(file, "is a compressed map of Gaussians, no triangle mesh");
   PlyRecordReader reader(file, header);
   TriangleMesh mesh;
   read_vertices(file, header.vertices(), reader, mesh);

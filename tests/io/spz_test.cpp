@@ -2,7 +2,6 @@
 
 #include <zlib.h>
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <cstring>
@@ -16,44 +15,15 @@
 #include "tests/io/support.h"
 
 using namespace surefield;
+using test::compare;
 using test::contains;
+using test::Differences;
 using test::input_error;
+using test::opacity;
 using test::random_cloud;
 using test::TemporaryFolder;
 
 namespace {
-
-float opacity(float logit) {
-  return 1 / (1 + std::exp(-logit));
-}
-
-/// The shape of a Gaussian with axes of 1, 2 and 3: what its rotation means.
-Eigen::Matrix3f shape(const Eigen::Vector4f& q) {
-  const Eigen::Matrix3f r = Eigen::Quaternionf(q[0], q[1], q[2], q[3]).normalized().toRotationMatrix();
-  return r * Eigen::Vector3f(1, 2, 3).asDiagonal() * r.transpose();
-}
-
-/// The largest differences between two clouds, attribute by attribute.
-struct Differences {
-  float mean = 0, log_scale = 0, shape = 0, opacity = 0, colour = 0, degree_1 = 0, above = 0;
-};
-
-Differences compare(const GaussianCloud& a, const GaussianCloud& b) {
-  Differences d;
-  const auto raise = [](float& largest, float value) { largest = std::max(largest, std::abs(value)); };
-  const auto coefficients = static_cast<std::size_t>(sh_coefficients(a.sh_degree));
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    raise(d.mean, (a.means[i] - b.means[i]).cwiseAbs().maxCoeff());
-    raise(d.log_scale, (a.log_scales[i] - b.log_scales[i]).cwiseAbs().maxCoeff());
-    raise(d.shape, (shape(a.rotations[i]) - shape(b.rotations[i])).norm());
-    raise(d.opacity, opacity(a.opacity_logits[i]) - opacity(b.opacity_logits[i]));
-    for (std::size_t k = 0; k < 3 * coefficients; ++k) {
-      const std::size_t at = 3 * coefficients * i + k;
-      raise(k < 3 ? d.colour : k < 12 ? d.degree_1 : d.above, a.sh[at] - b.sh[at]);
-    }
-  }
-  return d;
-}
 
 std::string gzipped(const std::string& bytes) {
   z_stream z{};
@@ -269,19 +239,4 @@ TEST_CASE("an SPZ file cut at any byte, or with any byte changed, is read or ref
     refused += message.empty() ? 0 : 1;
   }
   CHECK(refused > static_cast<int>(full.size()) - 10);  // all but gzip's time stamp and the like
-}
-
-TEST_CASE("maps are read in the format of their content and written in that of their name") {
-  const TemporaryFolder folder;
-  const GaussianCloud cloud = random_cloud(5, 2);
-  for (const std::string& format : map_formats()) {
-    write_map(folder / ("map." + format), cloud);
-    CHECK(read_map(folder / ("map." + format)).cloud.size() == 5);
-    std::filesystem::rename(folder / ("map." + format), folder / "map.unknown");
-    CHECK(read_map(folder / "map.unknown").cloud.sh_degree == 2);
-  }
-  CHECK(contains(input_error([&] { write_map(folder / "map.png", cloud); }), "name it .ply or .spz"));
-  CHECK(contains(input_error([&] { read_map(folder.write("a.spz", "hello")); }), "is no SPZ file"));
-  CHECK(contains(input_error([&] { read_map(folder.write("a.ply", "hello")); }), "is no PLY file"));
-  CHECK(contains(input_error([&] { read_map(folder / "none.ply"); }), "no such file"));
 }

@@ -2,6 +2,7 @@
 
 #include "engine/io/files.h"
 #include "engine/io/map_file.h"
+#include "engine/io/triangle_mesh.h"
 #include "tests/tools/support.h"
 
 using namespace surefield;
@@ -33,6 +34,26 @@ TEST_CASE("export turns a map into another format and back, within the rounding 
   CHECK(read_map(folder / "back.ply").cloud.means[0].isApprox(Eigen::Vector3f(1, 2, 3), 1e-4f));
 }
 
+TEST_CASE("export writes the format that the ending or --format names, and meshes") {
+  const TemporaryFolder folder;
+  write_map(folder / "map.ply", one_gaussian());
+  write_mesh(folder / "mesh.ply", {{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {}, {{0, 1, 2}}});
+  const auto start = [&](std::vector<std::string> arguments, const std::string& file) {
+    arguments.insert(arguments.begin(), "export");
+    arguments.insert(arguments.end(), {"--out", folder / file});
+    const Outcome outcome = surefield_command(arguments, folder.path());
+    CHECK_MESSAGE(outcome.code == 0, outcome.err);
+    return read_file(folder / file);
+  };
+  const std::string map = folder / "map.ply";
+  CHECK(contains(start({"--map", map}, "a.compressed.ply"), "element chunk 1"));
+  CHECK(contains(start({"--map", map, "--format", "cply"}, "b.ply"), "element chunk 1"));
+  CHECK(contains(start({"--map", folder / "b.ply"}, "c.ply"), "property float scale_0"));
+  CHECK(contains(start({"--map", map, "--format", "points"}, "d.ply"), "property uchar red"));
+  CHECK(contains(start({"--map", map}, "e.glb"), "KHR_gaussian_splatting:SCALE"));
+  CHECK(start({"--mesh", folder / "mesh.ply"}, "f.glb").starts_with("glTF"));
+}
+
 TEST_CASE("export refuses what it cannot write or read with the reason") {
   const TemporaryFolder folder;
   write_map(folder / "map.ply", one_gaussian());
@@ -42,7 +63,16 @@ TEST_CASE("export refuses what it cannot write or read with the reason") {
     CHECK(outcome.code == 2);
     return outcome.err;
   };
-  CHECK(contains(message({"--map", folder / "map.ply", "--out", folder / "a.jpg"}), "name it .ply or .spz"));
+  CHECK(contains(message({"--map", folder / "map.ply", "--out", folder / "a.jpg"}), "name it .ply, .comp"));
+  const auto as = [&](const char* format, const char* name) {
+    return message({"--map", folder / "map.ply", "--format", format, "--out", folder / name});
+  };
+  CHECK(contains(as("spz", "a.ply"), "a.ply: is named like another format than --format spz; name it .spz"));
+  CHECK(contains(as("points", "a.compressed.ply"), "--format points; name it .ply"));
+  CHECK(contains(as("sog", "a.ply"), "sog not in {cply,glb,ply,points,spz}"));
+  CHECK(contains(message({"--mesh", folder / "map.ply", "--out", folder / "a.ply"}), "name it .glb"));
+  CHECK(contains(message({"--mesh", folder / "map.ply", "--out", folder / "a.glb"}),
+                 "map.ply: has no element face"));
   CHECK(contains(message({"--map", folder / "no.spz", "--out", folder / "a.ply"}), "no.spz: no such file"));
   CHECK(contains(message({"--run", folder / "no", "--out", folder / "a.ply"}), "metrics.json: no such file"));
   CHECK(contains(message({"--out", folder / "a.ply"}), "see surefield export --help"));

@@ -1,3 +1,4 @@
+#include "engine/io/files.h"
 #include "engine/io/triangle_mesh.h"
 
 #include "engine/io/ply.h"
@@ -15,10 +16,10 @@ TriangleMesh square(float z) {
 }
 
 /// Runs `surefield mesh`, with voxels so large that it is fast.
-Outcome mesh_command(const TemporaryFolder& folder, std::vector<std::string> arguments) {
+Outcome mesh_command(const TemporaryFolder& folder, std::vector<std::string> arguments,
+                     const char* name = "mesh.ply") {
   arguments.insert(arguments.begin(), "mesh");
-  arguments.insert(arguments.end(),
-                   {"--voxel", "0.06", "--truncation", "0.24", "--out", folder / "mesh.ply"});
+  arguments.insert(arguments.end(), {"--voxel", "0.06", "--truncation", "0.24", "--out", folder / name});
   return surefield_command(arguments, folder.path());
 }
 
@@ -38,8 +39,9 @@ TEST_CASE("mesh fuses what a run rendered, or its sensor saw, and eval compares 
   std::filesystem::rename(folder / "mesh.ply", folder / "rendered.ply");
 
   const Outcome sensor =
-      mesh_command(folder, {"--run", folder / "out", "--source", "sensor", "--stride", "2"});
+      mesh_command(folder, {"--run", folder / "out", "--source", "sensor", "--stride", "2"}, "sensor.glb");
   REQUIRE_MESSAGE(sensor.code == 0, sensor.err);
+  CHECK(read_file(folder / "sensor.glb").starts_with("glTF"));
   CHECK(contains(sensor.out, "frames fused     2 of 2"));
 
   // In the dataset's own frame, and of its other frames, too.
@@ -91,6 +93,7 @@ TEST_CASE("mesh and the comparison of meshes name what they lack") {
   CHECK(contains(message({"--run", "/no/such"}), "/no/such/metrics.json: no such file"));
   CHECK(contains(message({"--run", "/no/such", "--trajectory", "true"}), "world frame of its own"));
   CHECK(contains(message({"--source", "other"}), "--source"));
+  CHECK(contains(mesh_command(folder, {"--run", "/no/such"}, "a.obj").err, "a.obj: has no ending of a mesh"));
   CHECK(contains(message({"--run", "/no/such", "--stride", "0"}), "--stride"));
 
   write_mesh(folder / "a.ply", square(0));
