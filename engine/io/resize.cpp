@@ -8,6 +8,8 @@ namespace surefield {
 
 namespace {
 
+constexpr float kSameSurface = 0.02f;  // of the depth
+
 /// Averages over areas with exactly `scale`. OpenCV keeps the given factors only where it chooses the size
 /// itself, and rounds halves to even; where it would give fewer pixels than wanted the border is repeated
 /// first.
@@ -30,15 +32,51 @@ int nearest_source(int c, double scale, int size) {
   return std::min(static_cast<int>(std::floor((c + 0.5) / scale)), size - 1);
 }
 
+/// The original pixels that a pixel of the smaller image covers along one axis, with the parts that it
+/// covers.
+struct Cover {
+  int first = 0, nearest = 0;
+  std::vector<float> parts;
+};
+
+std::vector<Cover> covers(int count, double scale, int size) {
+  std::vector<Cover> covers;
+  for (int c = 0; c < count; ++c) {
+    const double begin = c / scale, end = (c + 1) / scale;
+    Cover cover{.first = static_cast<int>(begin), .nearest = nearest_source(c, scale, size)};
+    for (int i = cover.first; i < std::min(end, static_cast<double>(size)); ++i)
+      cover.parts.push_back(static_cast<float>(std::min(end, i + 1.0) - std::max<double>(begin, i)));
+    covers.push_back(std::move(cover));
+  }
+  return covers;
+}
+
+/// The mean over the area, of the pixels on the surface that the nearest one shows; 0 where that one shows
+/// none. Averaging is over 1 / depth, which is linear over the image of a plane, so that planes stay where
+/// they are: the nearest pixel alone would be up to half a pixel beside the colour.
+float mean_depth(const cv::Mat& depth, const Cover& x, const Cover& y) {
+  const float nearest = depth.at<float>(y.nearest, x.nearest);
+  if (!(nearest > 0)) return 0;
+  float sum = 0, area = 0;
+  for (std::size_t j = 0; j < y.parts.size(); ++j) {
+    const float* row = depth.ptr<float>(y.first + static_cast<int>(j)) + x.first;
+    for (std::size_t i = 0; i < x.parts.size(); ++i) {
+      if (!(std::abs(row[i] - nearest) < kSameSurface * nearest)) continue;
+      const float part = x.parts[i] * y.parts[j];
+      sum += part / row[i];
+      area += part;
+    }
+  }
+  return area / sum;
+}
+
 cv::Mat resize_depth(const cv::Mat& depth, double scale, cv::Size size) {
-  std::vector<int> columns(static_cast<std::size_t>(size.width));
-  for (int x = 0; x < size.width; ++x)
-    columns[static_cast<std::size_t>(x)] = nearest_source(x, scale, depth.cols);
+  const std::vector<Cover> columns = covers(size.width, scale, depth.cols);
+  const std::vector<Cover> rows = covers(size.height, scale, depth.rows);
   cv::Mat resized(size, CV_32FC1);
   for (int y = 0; y < size.height; ++y) {
-    const auto* in = depth.ptr<float>(nearest_source(y, scale, depth.rows));
     auto* out = resized.ptr<float>(y);
-    for (int column : columns) *out++ = in[column];
+    for (const Cover& column : columns) *out++ = mean_depth(depth, column, rows[static_cast<std::size_t>(y)]);
   }
   return resized;
 }

@@ -138,15 +138,19 @@ TEST_CASE("resizing agrees with Intrinsics::scaled to a fraction of a pixel, at 
   Frame frame;
   frame.colour.create(height, width, CV_8UC3);
   frame.depth.create(height, width, CV_32FC1);
+  Frame rows = frame;
+  rows.depth = frame.depth.clone();
   for (int y = 0; y < height; ++y) {
     for (int x = 0; x < width; ++x) {
       frame.colour.at<cv::Vec3b>(y, x) = cv::Vec3b(static_cast<uchar>(2 * x), static_cast<uchar>(2 * y), 7);
+      // Neighbours in the other direction are other surfaces, so that they are not averaged.
       frame.depth.at<float>(y, x) = static_cast<float>(1000 * y + x);
+      rows.depth.at<float>(y, x) = static_cast<float>(1000 * x + y);
     }
   }
   for (double scale : {0.5, 0.25, 1.0 / 3, 0.3, 0.7, 0.9, 1.0}) {
     CAPTURE(scale);
-    const Frame small = resize_frame(frame, scale);
+    const Frame small = resize_frame(frame, scale), turned = resize_frame(rows, scale);
     const Intrinsics expected = Intrinsics{width, height, 1, 1, 0, 0}.scaled(scale);
     REQUIRE(small.colour.size() == cv::Size(expected.width, expected.height));
     REQUIRE(small.depth.size() == small.colour.size());
@@ -159,9 +163,45 @@ TEST_CASE("resizing agrees with Intrinsics::scaled to a fraction of a pixel, at 
     for (int y = 1; y + 1 < small.colour.rows; ++y) {
       const double source = (y + 0.5) / scale - 0.5;
       CHECK(std::abs(small.colour.at<cv::Vec3b>(y, 3)[1] / 2.0 - source) < 0.51);
-      CHECK(std::abs(std::floor(small.depth.at<float>(y, 3) / 1000.0f) - source) <= 0.5 + 1e-6);
+      CHECK(std::abs(std::fmod(turned.depth.at<float>(y, 3), 1000.0f) - source) <= 0.5 + 1e-6);
     }
   }
+}
+
+TEST_CASE("resizing leaves slanted planes where they are, and does not blend surfaces or fill holes") {
+  constexpr int width = 86;
+  constexpr int height = 64;
+  // 1 / depth is linear over the image of a plane.
+  const auto plane = [](double x, double y) { return 1 / (0.5 + 0.002 * x - 0.0015 * y); };
+  Frame frame;
+  frame.colour.create(height, width, CV_8UC3);
+  frame.depth.create(height, width, CV_32FC1);
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x) frame.depth.at<float>(y, x) = static_cast<float>(plane(x, y));
+  for (double scale : {0.5, 0.25, 1.0 / 3, 0.3, 0.7}) {
+    CAPTURE(scale);
+    const Frame small = resize_frame(frame, scale);
+    // Partly covered pixels count by their share, but at their centres, as colour does.
+    const double tolerance = std::abs(1 / scale - std::round(1 / scale)) < 1e-9 ? 1e-6 : 1e-3;
+    double worst = 0;
+    for (int y = 1; y + 1 < small.depth.rows; ++y)
+      for (int x = 1; x + 1 < small.depth.cols; ++x) {
+        const double expected = plane((x + 0.5) / scale - 0.5, (y + 0.5) / scale - 0.5);
+        worst = std::max(worst, std::abs(small.depth.at<float>(y, x) / expected - 1));
+      }
+    CHECK(worst < tolerance);
+  }
+  frame.depth.colRange(40, width) = 4.0f;
+  frame.depth.rowRange(20, 30) = 0.0f;
+  const Frame small = resize_frame(frame, 0.25);
+  for (int y = 0; y < small.depth.rows; ++y)
+    for (int x = 0; x < small.depth.cols; ++x) {
+      const float z = small.depth.at<float>(y, x);
+      const bool hole = 4 * y + 2 >= 20 && 4 * y + 2 < 30;
+      CHECK((z == 0) == hole);
+      if (!hole) CHECK(std::abs(z - 4) * (x >= 10 ? 1.0f : 0.0f) == 0);
+      if (!hole && x < 10) CHECK(z < 3);
+    }
 }
 
 TEST_CASE("a real clip streams at half size with matching intrinsics") {
