@@ -61,6 +61,9 @@ void add_run(CLI::App& program, Action& action) {
   run->add_option("--scale", options->selection.scale,
                   "Size of the images relative to the originals, up to 1")
       ->capture_default_str();
+  run->add_option("--depth-delay", options->depth_delay,
+                  "Seconds to add to the stamps of depth images that have their own (TUM) before they are "
+                  "paired with colour images; default: estimated from the edges of both");
   run->add_option("--device", options->engine.device,
                   "Number or part of the name of the device, see surefield devices; default: the best");
   run->add_flag("--validate", options->engine.validate, "Runs under Vulkan's validation layer (slow)");

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 
+#include "engine/eval/depth_delay.h"
 #include "engine/io/error.h"
 #include "engine/synth/synthetic_dataset.h"
 #include "tools/build_info.h"
@@ -15,7 +16,8 @@ constexpr const char* kSynthetic = "synthetic";
 }  // namespace
 
 std::unique_ptr<Dataset> open_run_dataset(const RunOptions& options) {
-  if (options.dataset != kSynthetic) return open_dataset(options.dataset, options.format);
+  if (options.dataset != kSynthetic)
+    return open_dataset(options.dataset, options.format, options.depth_delay.value_or(0));
   if (options.format != "auto" && options.format != kSynthetic) {
     throw InputError("--dataset synthetic has no files of the format " + options.format +
                      "; leave --format out (a folder of that name is given as ./synthetic)");
@@ -24,6 +26,16 @@ std::unique_ptr<Dataset> open_run_dataset(const RunOptions& options) {
   device.selector = options.engine.device;
   device.validate = options.engine.validate;
   return std::make_unique<SyntheticDataset>(device);
+}
+
+RunOptions with_depth_delay(RunOptions options) {
+  if (options.depth_delay || options.dataset == kSynthetic) return options;
+  const auto open = [asked = options](double added) mutable {
+    asked.depth_delay = added;
+    return open_run_dataset(asked);
+  };
+  options.depth_delay = estimate_depth_delay(*open_run_dataset(options), open);
+  return options;
 }
 
 std::string dataset_path(const RunOptions& options) {

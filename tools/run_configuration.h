@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -13,6 +14,7 @@ namespace surefield {
 struct RunOptions {
   std::string dataset;  ///< a folder, or "synthetic" for the embedded sequence
   std::string format = "auto";
+  std::optional<double> depth_delay;     ///< seconds, see open_dataset(); nullopt: estimated
   std::string config;                    ///< a file; empty: the built-in one of the format
   std::vector<std::string> assignments;  ///< "key=value", applied after the file
   std::string out;                       ///< folder of the results
@@ -22,8 +24,12 @@ struct RunOptions {
   bool quiet = false;
 };
 
-/// Opens the dataset that the options name. Throws InputError.
+/// Opens the dataset that the options name. Throws InputError; where the options say no delay of the depth
+/// images, it is none.
 std::unique_ptr<Dataset> open_run_dataset(const RunOptions& options);
+
+/// The options with the delay of the depth images estimated where they leave it open. Throws InputError.
+RunOptions with_depth_delay(RunOptions options);
 
 /// Where that dataset is, as it can be given to --dataset from any folder.
 std::string dataset_path(const RunOptions& options);

@@ -77,6 +77,8 @@ std::unique_ptr<Dataset> open_dataset_of(const RunFolder& run, const std::string
     throw InputError(run.path / "metrics.json", "does not name the dataset; give it with --dataset");
   }
   if (instead.empty()) options.format = run.text("/dataset/format");
+  const double depth_delay = run.number("/dataset/depth_delay_s");
+  if (std::isfinite(depth_delay)) options.depth_delay = depth_delay;
   return open_run_dataset(options);
 }
 

@@ -40,7 +40,8 @@ Json dataset_json(const RunRecord& record) {
           {"start", record.selection.start},
           {"stride", record.selection.stride},
           {"scale", record.selection.scale},
-          {"depth_max_m", record.depth_max}};
+          {"depth_max_m", record.depth_max},
+          {"depth_delay_s", record.depth_delay}};
 }
 
 Json frames_json(const RunRecord& record) {

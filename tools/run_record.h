@@ -24,6 +24,7 @@ struct RunRecord {
   std::string dataset;
   std::string dataset_path;  ///< where it was read from, absolute; or "synthetic"
   std::string format;
+  double depth_delay = 0;  ///< seconds, added to the stamps of depth images
   FrameSelection selection;
   int selected = 0;       ///< frames that were to be fed
   Intrinsics intrinsics;  ///< of the frames fed

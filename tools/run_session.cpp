@@ -149,6 +149,7 @@ RunRecord start_record(const RunOptions& options, const Dataset& dataset, const 
   record.dataset = dataset.name();
   record.dataset_path = dataset_path(options);
   record.format = dataset.format();
+  record.depth_delay = options.depth_delay.value_or(0);
   record.selection = options.selection;
   record.selected = stream.size();
   record.intrinsics = stream.intrinsics();
@@ -248,6 +249,8 @@ void announce(spdlog::logger& log, const RunRecord& record, const Dataset& datas
   log.info("surefield {} ({}) on {}, {}", kVersion, kGitCommit, engine.device, engine.driver);
   log.info("{} ({}): {} frames of {} x {}", record.dataset, record.format, record.selected,
            record.intrinsics.width, record.intrinsics.height);
+  if (record.depth_delay != 0)
+    log.info("depth images are {:.0f} ms off their stamps", 1000 * record.depth_delay);
   for (const std::string& warning : dataset.warnings()) {
     log.warn(warning);
     if (!quiet) fmt::print(stderr, "surefield: warning: {}\n", warning);
@@ -256,8 +259,9 @@ void announce(spdlog::logger& log, const RunRecord& record, const Dataset& datas
 
 }  // namespace
 
-int run_session(const RunOptions& options) {
+int run_session(const RunOptions& asked) {
   catch_interrupts();
+  const RunOptions options = with_depth_delay(asked);
   const auto dataset = open_run_dataset(options);
   SlamSettings settings;
   const std::string effective = load_settings(settings, options, dataset->format());

@@ -19,15 +19,6 @@ constexpr double kEnoughMotion = 0.12;  // metres
 constexpr double kMostMotion = 0.4;     // metres
 constexpr double kMostTurn = 0.25;      // radians: beyond, too little is seen twice
 
-/// `count` numbers from 0 to size - 1, evenly spread.
-std::vector<int> spread(int size, int count) {
-  std::vector<int> numbers;
-  for (int k = 0; k < std::min(size, count); ++k) {
-    numbers.push_back(size <= count ? k : static_cast<int>((2L * k + 1) * size / (2L * count)));
-  }
-  return numbers;
-}
-
 /// The first later frame that has moved far enough, or the one that has moved most; -1 where there is none.
 int partner(const Dataset& dataset, const PoseTrack& track, int from) {
   const auto pose = track.at(dataset.timestamp(from));
@@ -76,6 +67,14 @@ class Loader {
 };
 
 }  // namespace
+
+std::vector<int> spread(int size, int count) {
+  std::vector<int> numbers;
+  for (int k = 0; k < std::min(size, count); ++k) {
+    numbers.push_back(size <= count ? k : static_cast<int>((2L * k + 1) * size / (2L * count)));
+  }
+  return numbers;
+}
 
 bool stamps_are_indices(const Dataset& dataset) {
   for (int i = 0; i < dataset.size(); ++i) {

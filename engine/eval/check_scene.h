@@ -13,6 +13,9 @@ struct PreparedScene {
   bool stamps_are_indices = false;  ///< stamps count frames; how fast they were taken is unknown
 };
 
+/// `count` numbers from 0 to size - 1, or all of them where there are fewer, evenly spread.
+std::vector<int> spread(int size, int count);
+
 /// Whether the stamps of a dataset are but the numbers of its frames.
 bool stamps_are_indices(const Dataset& dataset);
 

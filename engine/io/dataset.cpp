@@ -16,20 +16,24 @@ struct Layout {
   const char* format;
   const char* looked_for;
   bool (*fits)(const std::filesystem::path&);
-  std::unique_ptr<Dataset> (*open)(const std::filesystem::path&);
+  std::unique_ptr<Dataset> (*open)(const std::filesystem::path&, double depth_delay);
 };
 
 template <StoredSequence (*Read)(const std::filesystem::path&)>
-std::unique_ptr<Dataset> open_files(const std::filesystem::path& folder) {
+std::unique_ptr<Dataset> open_files(const std::filesystem::path& folder, double) {
   return std::make_unique<FileDataset>(Read(folder));
 }
 
+std::unique_ptr<Dataset> open_tum(const std::filesystem::path& folder, double depth_delay) {
+  return std::make_unique<FileDataset>(read_tum_sequence(folder, depth_delay));
+}
+
 constexpr std::array<Layout, 7> kLayouts = {{
-    {"tum", kTumLayout, is_tum, open_files<read_tum_sequence>},
+    {"tum", kTumLayout, is_tum, open_tum},
     {"replica", kReplicaLayout, is_replica, open_files<read_replica_sequence>},
     {"sevenscenes", kSevenScenesLayout, is_sevenscenes, open_files<read_sevenscenes_sequence>},
     {"scannet", kScanNetLayout, is_scannet, open_files<read_scannet_sequence>},
-    {"scannet", kSensLayout, is_sens, open_sens},
+    {"scannet", kSensLayout, is_sens, [](const auto& path, double) { return open_sens(path); }},
     {"icl", kIclLayout, is_icl, open_files<read_icl_sequence>},
     {"plain", kPlainLayout, is_plain, open_files<read_plain_sequence>},
 }};
@@ -93,12 +97,13 @@ std::vector<std::string> dataset_formats() {
   return formats;
 }
 
-std::unique_ptr<Dataset> open_dataset(const std::filesystem::path& path, const std::string& format) {
+std::unique_ptr<Dataset> open_dataset(const std::filesystem::path& path, const std::string& format,
+                                      double depth_delay) {
   if (!std::filesystem::exists(path)) {
     throw InputError(path, "there is no such folder; give the folder of the sequence");
   }
   const std::filesystem::path resolved = std::filesystem::canonical(path);
-  return find_layout(resolved, format).open(resolved);
+  return find_layout(resolved, format).open(resolved, depth_delay);
 }
 
 }  // namespace surefield

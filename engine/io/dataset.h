@@ -78,7 +78,9 @@ std::vector<std::string> dataset_formats();
 /// Opens the sequence in the folder `path` (or the ScanNet file `path`, *.sens). `format` is one of
 /// dataset_formats(), or "auto" to recognise the layout. Reads lists, poses and calibration, not the images.
 /// Throws InputError naming what was looked for when the folder is missing, empty, of an unknown layout or of
-/// several, or when a list, a pose or a calibration cannot be read.
-std::unique_ptr<Dataset> open_dataset(const std::filesystem::path& path, const std::string& format = "auto");
+/// several, or when a list, a pose or a calibration cannot be read. `depth_delay`, seconds, is added to the
+/// stamps of depth images before they are paired with colour images, where they have stamps of their own.
+std::unique_ptr<Dataset> open_dataset(const std::filesystem::path& path, const std::string& format = "auto",
+                                      double depth_delay = 0);
 
 }  // namespace surefield

@@ -12,7 +12,7 @@ namespace surefield {
 
 inline constexpr const char* kTumLayout = "rgb.txt and depth.txt";
 bool is_tum(const std::filesystem::path& folder);
-StoredSequence read_tum_sequence(const std::filesystem::path& folder);
+StoredSequence read_tum_sequence(const std::filesystem::path& folder, double depth_delay);
 
 inline constexpr const char* kReplicaLayout = "results/frame000000.jpg or .png";
 bool is_replica(const std::filesystem::path& folder);

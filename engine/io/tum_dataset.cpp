@@ -116,13 +116,14 @@ bool is_tum(const std::filesystem::path& folder) {
   return std::filesystem::exists(folder / "rgb.txt") && std::filesystem::exists(folder / "depth.txt");
 }
 
-StoredSequence read_tum_sequence(const std::filesystem::path& folder) {
+StoredSequence read_tum_sequence(const std::filesystem::path& folder, double depth_delay) {
   StoredSequence sequence;
   sequence.name = folder.filename().string();
   sequence.format = "tum";
   read_tum_calibration(folder, sequence);
   const std::vector<ListedImage> colours = read_list(folder / "rgb.txt");
-  const std::vector<ListedImage> depths = read_list(folder / "depth.txt");
+  std::vector<ListedImage> depths = read_list(folder / "depth.txt");
+  for (ListedImage& depth : depths) depth.timestamp += depth_delay;
   for (const ListedImage& colour : colours) {
     const ListedImage& depth = nearest(depths, colour.timestamp);
     if (std::abs(depth.timestamp - colour.timestamp) > kMaxStampDifference) continue;

@@ -89,6 +89,17 @@ TEST_CASE("TUM: a depth image may serve two colour images, a colour image withou
   CHECK(loaded.frame->depth.at<float>(479, 639) == 1.0f);
 }
 
+TEST_CASE("TUM: seconds added to the stamps of depth images change which colour images they belong to") {
+  const TemporaryFolder folder("own_fr3_test");
+  write_tum(folder);
+  const auto later = open_dataset(folder.path(), "auto", -0.02);
+  REQUIRE(later->size() == 2);
+  CHECK(later->timestamp(0) == 1.0);
+  CHECK(later->depth_timestamp(0) == doctest::Approx(0.985));
+  CHECK(later->timestamp(1) == 2.0);
+  CHECK(later->depth_timestamp(1) == doctest::Approx(2.01));
+}
+
 TEST_CASE("TUM: the camera comes from the folder's name or from cam_params.json") {
   const TemporaryFolder unknown("recording");
   write_tum(unknown);
