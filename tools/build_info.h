@@ -14,4 +14,7 @@ extern const char* const kGitCommit;
 /// The files of configs/ as they were when the program was built.
 const BuiltInFiles& built_in_configs();
 
+/// The files of tools/web/, likewise.
+const BuiltInFiles& web_page_files();
+
 }  // namespace surefield

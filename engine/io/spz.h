@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <ostream>
 
 #include "engine/splat/gaussian_cloud.h"
 
@@ -18,5 +19,8 @@ GaussianCloud read_spz(const std::filesystem::path& file);
 /// which leave a Gaussian as it is. The file appears complete or not at all. Throws InputError when it cannot
 /// be written.
 void write_spz(const std::filesystem::path& file, const GaussianCloud& cloud);
+
+/// The same to a stream; errors name `file`.
+void write_spz(std::ostream& stream, const std::filesystem::path& file, const GaussianCloud& cloud);
 
 }  // namespace surefield

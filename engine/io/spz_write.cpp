@@ -115,7 +115,7 @@ Bytes harmonics(const GaussianCloud& cloud) {
 
 }  // namespace
 
-void write_spz(const std::filesystem::path& file, const GaussianCloud& cloud) {
+void write_spz(std::ostream& stream, const std::filesystem::path& file, const GaussianCloud& cloud) {
   if (!cloud.is_consistent()) throw std::logic_error("write_spz: the arrays of the cloud differ in length");
   if (cloud.size() > std::numeric_limits<uint32_t>::max())
     throw InputError(file, "cannot be written: SPZ holds at most 4294967295 Gaussians");
@@ -124,17 +124,19 @@ void write_spz(const std::filesystem::path& file, const GaussianCloud& cloud) {
                            .fractional_bits = static_cast<uint8_t>(fractional_bits(file, cloud))};
   Bytes start(sizeof(header));
   std::memcpy(start.data(), &header, sizeof(header));
-  write_file(file, [&](std::ostream& stream) {
-    GzipWriter gzip(stream);
-    gzip.write(start);
-    gzip.write(positions(cloud, header.fractional_bits));
-    gzip.write(opacities(cloud));
-    gzip.write(colours(cloud));
-    gzip.write(scales(cloud));
-    gzip.write(rotations(cloud));
-    gzip.write(harmonics(cloud));
-    gzip.finish();
-  });
+  GzipWriter gzip(stream);
+  gzip.write(start);
+  gzip.write(positions(cloud, header.fractional_bits));
+  gzip.write(opacities(cloud));
+  gzip.write(colours(cloud));
+  gzip.write(scales(cloud));
+  gzip.write(rotations(cloud));
+  gzip.write(harmonics(cloud));
+  gzip.finish();
+}
+
+void write_spz(const std::filesystem::path& file, const GaussianCloud& cloud) {
+  write_file(file, [&](std::ostream& stream) { write_spz(stream, file, cloud); });
 }
 
 }  // namespace surefield

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cstdint>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 #include <vector>
@@ -11,19 +13,6 @@ namespace surefield {
 namespace {
 
 constexpr int kJpegQuality = 88;
-
-std::string base64(const std::vector<uchar>& bytes) {
-  constexpr const char* kDigits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string text;
-  text.reserve((bytes.size() + 2) / 3 * 4);
-  for (std::size_t i = 0; i < bytes.size(); i += 3) {
-    const std::size_t count = std::min<std::size_t>(3, bytes.size() - i);
-    uint32_t group = 0;
-    for (std::size_t k = 0; k < 3; ++k) group = group << 8 | (k < count ? bytes[i + k] : 0u);
-    for (std::size_t k = 0; k < 4; ++k) text += k <= count ? kDigits[group >> (18 - 6 * k) & 63] : '=';
-  }
-  return text;
-}
 
 /// Length of the UTF-8 character that starts at `text[i]`; 0 where none does.
 std::size_t character_length(std::string_view text, std::size_t i) {
@@ -74,6 +63,20 @@ std::string escape_html(std::string_view text) {
   return escaped;
 }
 
+std::string base64(std::string_view bytes) {
+  constexpr const char* kDigits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string text;
+  text.reserve((bytes.size() + 2) / 3 * 4);
+  for (std::size_t i = 0; i < bytes.size(); i += 3) {
+    const std::size_t count = std::min<std::size_t>(3, bytes.size() - i);
+    uint32_t group = 0;
+    for (std::size_t k = 0; k < 3; ++k)
+      group = group << 8 | (k < count ? static_cast<uint8_t>(bytes[i + k]) : 0u);
+    for (std::size_t k = 0; k < 4; ++k) text += k <= count ? kDigits[group >> (18 - 6 * k) & 63] : '=';
+  }
+  return text;
+}
+
 std::string html_image(const cv::Mat& image, const std::string& description, int widest) {
   cv::Mat shown;
   cv::cvtColor(image, shown, cv::COLOR_RGB2BGR);
@@ -84,7 +87,8 @@ std::string html_image(const cv::Mat& image, const std::string& description, int
   std::vector<uchar> bytes;
   cv::imencode(".jpg", shown, bytes, {cv::IMWRITE_JPEG_QUALITY, kJpegQuality});
   return fmt::format("<img width=\"{}\" height=\"{}\" alt=\"{}\" src=\"data:image/jpeg;base64,{}\">",
-                     shown.cols, shown.rows, escape_html(description), base64(bytes));
+                     shown.cols, shown.rows, escape_html(description),
+                     base64({reinterpret_cast<const char*>(bytes.data()), bytes.size()}));
 }
 
 }  // namespace surefield

@@ -10,6 +10,9 @@ namespace surefield {
 /// so that the page stays readable whatever a file was called.
 std::string escape_html(std::string_view text);
 
+/// Bytes in base64, as data: addresses and pages hold them.
+std::string base64(std::string_view bytes);
+
 /// The image (CV_8UC3, RGB) as an <img> element that carries its own pixels (JPEG); wider ones are shrunk to
 /// `widest` pixels. `description` is for those who cannot see it.
 std::string html_image(const cv::Mat& image, const std::string& description, int widest);
