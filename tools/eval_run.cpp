@@ -4,7 +4,6 @@
 
 #include "engine/io/error.h"
 #include "engine/io/files.h"
-#include "engine/io/map_file.h"
 #include "tools/command.h"
 #include "tools/interrupt.h"
 #include "tools/progress.h"
@@ -37,9 +36,8 @@ std::optional<MapQuality> measure_images(const EvalRunOptions& options, const Ru
                                          const Dataset& dataset) {
   std::optional<Lpips> lpips;
   if (!options.lpips.empty()) lpips.emplace(options.lpips);
-  const GaussianCloud map = read_map(run.map_file()).cloud;
   SplatEngine engine(options.engine);
-  engine.assign(map);
+  assign_map(engine, run);
   QualityInput input{.dataset = dataset,
                      .views = views_of(run, dataset),
                      .scale = run.number("/dataset/scale"),

@@ -11,7 +11,6 @@
 
 #include "engine/io/error.h"
 #include "engine/io/glb.h"
-#include "engine/io/map_file.h"
 #include "tools/command.h"
 #include "tools/interrupt.h"
 #include "tools/progress.h"
@@ -192,7 +191,7 @@ int integrate_source(TsdfVolume& volume, const Input& input, const MeshOptions& 
     });
   }
   SplatEngine engine(options.engine);
-  engine.assign(read_map(input.run->map_file()).cloud);
+  assign_map(engine, *input.run);
   return integrate(volume, input,
                    [&](const FusionView& view) { return rendered_images(engine, view, input.depth_max); });
 }

@@ -7,7 +7,6 @@
 #include "engine/eval/image_metrics.h"
 #include "engine/io/error.h"
 #include "engine/io/frame_stream.h"
-#include "engine/io/map_file.h"
 #include "engine/report/colour_maps.h"
 #include "engine/report/html.h"
 #include "tools/interrupt.h"
@@ -137,7 +136,7 @@ class ImageBlock {
   }
 
   void add(const ReportRun& run, SplatEngine& engine) {
-    engine.assign(read_map(run.folder.map_file()).cloud);
+    assign_map(engine, run.folder);
     const std::vector<QualityView> views = views_of(run.folder, *run.dataset);
     for (std::size_t k = 0; k < frames_.size() && !interrupted(); ++k) {
       const auto position = position_of(run, frames_[k]);

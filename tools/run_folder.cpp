@@ -7,6 +7,7 @@
 
 #include "engine/io/error.h"
 #include "engine/io/files.h"
+#include "engine/io/map_file.h"
 #include "tools/run_configuration.h"
 
 namespace surefield {
@@ -68,6 +69,13 @@ RunFolder read_run(const std::filesystem::path& folder) {
                                  run.trajectory.size(), run.metrics["per_frame"].size()));
   }
   return run;
+}
+
+void assign_map(SplatEngine& engine, const RunFolder& run) {
+  SlamSettings settings;
+  load_settings(settings, {.config = (run.path / "config.yaml").string()}, "");
+  engine.set_depth_model(settings.depth_model);
+  engine.assign(read_map(run.map_file()).cloud);
 }
 
 std::unique_ptr<Dataset> open_dataset_of(const RunFolder& run, const std::string& instead) {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "engine/io/dataset.h"
+#include "engine/splat/engine.h"
 #include "tools/map_quality.h"
 
 namespace surefield {
@@ -32,6 +33,10 @@ struct RunFolder {
 /// Reads a folder of results. Throws InputError naming the file that is missing, damaged or of another
 /// version.
 RunFolder read_run(const std::filesystem::path& folder);
+
+/// Puts the map of a run into an engine, with the depth of a Gaussian over its footprint that the run had.
+/// Throws InputError.
+void assign_map(SplatEngine& engine, const RunFolder& run);
 
 /// Opens the dataset that the run was made from, or `instead` where that is not empty. Throws InputError.
 std::unique_ptr<Dataset> open_dataset_of(const RunFolder& run, const std::string& instead = "");

@@ -14,6 +14,7 @@
 
 using namespace surefield;
 using testing::frame_of;
+using testing::Seen;
 using testing::wall;
 using testing::wall_camera;
 
@@ -134,16 +135,12 @@ TEST_CASE("mapping lowers the loss and refines poses beside the map") {
   GaussianMap truth(device);
   truth.assign(wall(120, 90, 90));
   const Camera camera = wall_camera();
-  const RenderImages images = rasteriser.render(truth, camera);
-  std::vector<uint8_t> colour;
-  for (float c : images.colour)
-    colour.push_back(static_cast<uint8_t>(std::lround(std::clamp(c, 0.0f, 1.0f) * 255)));
+  const Seen seen(rasteriser.render(truth, camera));
 
   GaussianCloud dull = wall(120, 90, 90);
   for (float& c : dull.sh) c *= 0.3f;
   engine.assign(dull);
-  const FrameHandle frame =
-      engine.load({images.width, images.height, colour.data(), images.depth_normalised.data(), 10});
+  const FrameHandle frame = engine.load(seen.view());
   Camera moved = camera;
   moved.world_to_camera.translation().x() += 0.004;
   std::vector<MappingView> views{{frame, camera, false}, {frame, moved, true}};

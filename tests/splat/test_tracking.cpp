@@ -8,6 +8,7 @@
 
 using namespace surefield;
 using testing::frame_of;
+using testing::Seen;
 using testing::wall;
 using testing::wall_camera;
 
@@ -107,16 +108,7 @@ TEST_CASE("a keyframe's own images pull the pose to where they fit, where the ma
 
 TEST_CASE("the engine aligns frames to the keyframes that it is given, also when they or their size change") {
   SplatEngine engine({.device = testing::device_options().selector});
-  const auto load = [&](const Camera& camera) {
-    const RenderImages images = engine.render(camera);
-    std::vector<uint8_t> colour;
-    for (float c : images.colour)
-      colour.push_back(static_cast<uint8_t>(std::lround(std::clamp(c, 0.0f, 1.0f) * 255)));
-    std::vector<float> depth = images.depth_normalised;
-    for (std::size_t i = 0; i < depth.size(); ++i)
-      if (images.opacity[i] < 0.95f) depth[i] = 0;
-    return engine.load({images.width, images.height, colour.data(), depth.data(), 10});
-  };
+  const auto load = [&](const Camera& camera) { return engine.load(Seen(engine.render(camera)).view()); };
   GaussianCloud shifted = wall(160, 120, 90);
   for (Eigen::Vector3f& mean : shifted.means) mean.x() += 0.006f;
   const TrackingSettings settings{.reference_weight = 100, .minimum_opacity = 0.9};

@@ -13,6 +13,7 @@
 #include "tests/support/device.h"
 
 using namespace surefield;
+using testing::Seen;
 using testing::wall;
 using testing::wall_camera;
 
@@ -80,20 +81,6 @@ GaussianCloud wall_and_stray() {
   return cloud;
 }
 
-/// What a camera sees of a map, as a sensor would; `nearer` is taken from the depth, metres.
-struct Seen {
-  std::vector<uint8_t> colour;
-  std::vector<float> depth;
-  int width, height;
-
-  Seen(const RenderImages& images, float nearer) : width(images.width), height(images.height) {
-    for (float c : images.colour)
-      colour.push_back(static_cast<uint8_t>(std::lround(std::clamp(c, 0.0f, 1.0f) * 255)));
-    for (float d : images.depth_normalised) depth.push_back(d - nearer);
-  }
-  FrameView view() const { return {width, height, colour.data(), depth.data(), 10}; }
-};
-
 /// An engine, and a frame of the wall alone.
 struct Stand {
   SplatEngine engine{{.device = testing::device_options().selector}};
@@ -101,7 +88,7 @@ struct Stand {
 
   Stand() {
     engine.assign(wall(120, 90, 90));
-    frame = engine.load(Seen(engine.render(wall_camera()), 0).view());
+    frame = engine.load(Seen(engine.render(wall_camera())).view());
   }
   std::vector<MappingView> views() const { return {{frame, wall_camera(), false}}; }
   void optimise(int steps, const MappingSettings& settings) {

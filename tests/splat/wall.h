@@ -25,17 +25,26 @@ inline GaussianCloud wall(int width, int height, double focal) {
   return cloud;
 }
 
+/// What was rendered, as a sensor would measure it: no depth where the map is not opaque. `nearer` is taken
+/// from the depth, metres.
+struct Seen {
+  int width, height;
+  std::vector<uint8_t> colour;
+  std::vector<float> depth;
+
+  explicit Seen(const RenderImages& images, float nearer = 0) : width(images.width), height(images.height) {
+    for (float c : images.colour)
+      colour.push_back(static_cast<uint8_t>(std::lround(std::clamp(c, 0.0f, 1.0f) * 255)));
+    for (std::size_t i = 0; i < images.opacity.size(); ++i)
+      depth.push_back(images.opacity[i] < 0.95f ? 0 : images.depth_normalised[i] - nearer);
+  }
+  FrameView view() const { return {width, height, colour.data(), depth.data(), 10}; }
+};
+
 /// The frame that a camera sees of a map.
 inline SensorFrame frame_of(gpu::Device& device, Rasteriser& rasteriser, const GaussianMap& map,
                             const Camera& camera) {
-  const RenderImages images = rasteriser.render(map, camera);
-  std::vector<uint8_t> colour;
-  for (float c : images.colour)
-    colour.push_back(static_cast<uint8_t>(std::lround(std::clamp(c, 0.0f, 1.0f) * 255)));
-  std::vector<float> depth = images.depth_normalised;
-  for (std::size_t i = 0; i < depth.size(); ++i)
-    if (images.opacity[i] < 0.95f) depth[i] = 0;
-  return SensorFrame(device, {images.width, images.height, colour.data(), depth.data(), 10});
+  return SensorFrame(device, Seen(rasteriser.render(map, camera)).view());
 }
 
 /// Looks at the wall, from the place that it was made for.

@@ -85,6 +85,23 @@ TEST_CASE("eval --run finds again what the run found, and needs no more than its
                  "trajectory.txt: has 1 poses, but metrics.json 3 frames"));
 }
 
+TEST_CASE("eval renders the map of a run with the depth model of that run") {
+  const TemporaryFolder folder;
+  std::vector<std::string> arguments = short_run(folder / "out", 2);
+  arguments.insert(arguments.end(), {"--set", "depth_model=centre"});
+  REQUIRE(surefield_command(arguments, folder.path()).code == 0);
+  const auto depth_error = [&] {
+    const Outcome outcome =
+        surefield_command({"eval", "--run", folder / "out", "--json", folder / "out.json"}, folder.path());
+    REQUIRE_MESSAGE(outcome.code == 0, outcome.err);
+    return read_json(folder / "out.json")["images"]["depth_l1_m"].get<double>();
+  };
+  const double expected = read_json(folder / "out/metrics.json")["images"]["depth_l1_m"];
+  CHECK(depth_error() == doctest::Approx(expected).epsilon(1e-4));
+  folder.write("out/config.yaml", "depth_model: plane\n");
+  CHECK(depth_error() != doctest::Approx(expected).epsilon(1e-3));
+}
+
 TEST_CASE("eval reads trajectories of other systems: comments, stamps apart from the truth's") {
   const TemporaryFolder folder;
   write_trajectory(folder / "truth.txt", square(0));
