@@ -45,7 +45,7 @@ enum class TrackingMethod { GaussNewton, Adam };
 struct TrackingSettings {
   TrackingMethod method = TrackingMethod::GaussNewton;
   int renders = 1;     ///< Gauss-Newton: times that the map is rendered and aligned, at most
-  double balance = 2;  ///< Gauss-Newton: weight of the geometric residuals beside the photometric ones
+  double balance = 1.5;  ///< Gauss-Newton: weight of the geometric residuals beside the photometric ones
   int references = 4;  ///< Gauss-Newton: keyframes whose images a frame is aligned to, at most
   double reference_weight = 1;        ///< Gauss-Newton: weight of each of them beside the render
   int iterations = 35;                ///< Adam's steps, at most
