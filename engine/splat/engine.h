@@ -44,9 +44,9 @@ enum class TrackingMethod { GaussNewton, Adam };
 /// How a pose is tracked (paper eq. 19 and 20).
 struct TrackingSettings {
   TrackingMethod method = TrackingMethod::GaussNewton;
-  int renders = 1;     ///< Gauss-Newton: times that the map is rendered and aligned, at most
+  int renders = 1;       ///< Gauss-Newton: times that the map is rendered and aligned, at most
   double balance = 1.5;  ///< Gauss-Newton: weight of the geometric residuals beside the photometric ones
-  int references = 4;  ///< Gauss-Newton: keyframes whose images a frame is aligned to, at most
+  int references = 4;    ///< Gauss-Newton: keyframes whose images a frame is aligned to, at most
   double reference_weight = 1;        ///< Gauss-Newton: weight of each of them beside the render
   int iterations = 35;                ///< Adam's steps, at most
   double rate_rotation = 0.0015;      ///< Adam's step, radians
