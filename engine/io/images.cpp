@@ -61,21 +61,6 @@ cv::Mat to_8bit(const cv::Mat& image) {
   return clean;
 }
 
-/// The 16 numbers of a 4 x 4 matrix that is stored as an array of rows.
-std::vector<double> read_rows(const JsonObject& object, const std::string& key) {
-  const nlohmann::json& rows = object.at(key);
-  std::vector<double> numbers;
-  for (const nlohmann::json& row : rows) {
-    if (!rows.is_array() || !row.is_array() || row.size() != 4)
-      object.fail(key, "must be four rows of four numbers");
-    for (const nlohmann::json& number : row) {
-      if (!number.is_number()) object.fail(key, "must hold numbers only");
-      numbers.push_back(number.get<double>());
-    }
-  }
-  return numbers;
-}
-
 }  // namespace
 
 cv::Mat read_colour(const std::filesystem::path& file) {
@@ -145,11 +130,7 @@ Camera read_camera(const std::filesystem::path& file) {
   const JsonObject object(file);
   Camera camera;
   camera.intrinsics = read_intrinsics(object, "width", "height");
-  const auto pose = rigid_from_rows(read_rows(object, "world_to_camera"));
-  if (!pose || !pose->matrix().allFinite()) {
-    object.fail("world_to_camera", "must be a rotation and a translation, with the last row 0 0 0 1");
-  }
-  camera.world_to_camera = *pose;
+  camera.world_to_camera = read_world_to_camera(object);
   return camera;
 }
 

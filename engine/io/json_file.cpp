@@ -1,6 +1,7 @@
 #include "engine/io/json_file.h"
 
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "engine/io/error.h"
@@ -15,6 +16,21 @@ int read_side(const JsonObject& object, const std::string& key) {
   const double side = object.positive(key);
   if (side != std::floor(side) || side > kLargestSide) object.fail(key, "must be a whole number of pixels");
   return static_cast<int>(side);
+}
+
+/// The 16 numbers of a 4 x 4 matrix that is stored as an array of rows.
+std::vector<double> read_rows(const JsonObject& object, const std::string& key) {
+  const nlohmann::json& rows = object.at(key);
+  std::vector<double> numbers;
+  for (const nlohmann::json& row : rows) {
+    if (!rows.is_array() || !row.is_array() || row.size() != 4)
+      object.fail(key, "must be four rows of four numbers");
+    for (const nlohmann::json& number : row) {
+      if (!number.is_number()) object.fail(key, "must hold numbers only");
+      numbers.push_back(number.get<double>());
+    }
+  }
+  return numbers;
 }
 
 }  // namespace
@@ -55,6 +71,29 @@ const nlohmann::json& JsonObject::at(const std::string& key) const {
   return *found;
 }
 
+std::vector<JsonObject> JsonObject::objects(const std::string& key) const {
+  std::vector<JsonObject> list;
+  if (!at(key).is_array()) fail(key, "must be a list of objects, [{ ... }, ...]");
+  for (const nlohmann::json& value : at(key)) {
+    if (!value.is_object()) fail(key, "must be a list of objects, [{ ... }, ...]");
+    list.push_back({file_, value});
+  }
+  return list;
+}
+
+Eigen::Vector3d JsonObject::point(const std::string& key) const {
+  const nlohmann::json& value = at(key);
+  Eigen::Vector3d point = Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());
+  for (std::size_t i = 0; value.is_array() && value.size() == 3 && i < 3; ++i)
+    if (value[i].is_number()) point[static_cast<Eigen::Index>(i)] = value[i].get<double>();
+  if (!point.allFinite()) fail(key, "must be three numbers, [x, y, z]");
+  return point;
+}
+
+bool JsonObject::has(const std::string& key) const {
+  return value_.contains(key);
+}
+
 void JsonObject::fail(const std::string& key, const std::string& problem) const {
   throw InputError(file_, "\"" + key + "\" " + problem);
 }
@@ -69,6 +108,14 @@ Intrinsics read_intrinsics(const JsonObject& object, const std::string& width_ke
   intrinsics.cx = object.number("cx");
   intrinsics.cy = object.number("cy");
   return intrinsics;
+}
+
+Pose read_world_to_camera(const JsonObject& object) {
+  constexpr const char* kKey = "world_to_camera";
+  const auto pose = rigid_from_rows(read_rows(object, kKey));
+  if (!pose || !pose->matrix().allFinite())
+    object.fail(kKey, "must be a rotation and a translation, with the last row 0 0 0 1");
+  return *pose;
 }
 
 }  // namespace surefield

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <vector>
 
 #include "engine/splat/camera.h"
 
@@ -23,6 +24,14 @@ class JsonObject {
   /// The positive number under `key`. Throws InputError when it is missing or none.
   double positive(const std::string& key) const;
 
+  /// The objects in the list under `key`. Throws InputError when it is missing or no such list.
+  std::vector<JsonObject> objects(const std::string& key) const;
+
+  /// The three finite numbers under `key`. Throws InputError when they are missing or others.
+  Eigen::Vector3d point(const std::string& key) const;
+
+  bool has(const std::string& key) const;
+
   /// The value under `key`, of any type. Throws InputError when it is missing.
   const nlohmann::json& at(const std::string& key) const;
 
@@ -40,5 +49,8 @@ class JsonObject {
 /// cx, cy. Throws InputError.
 Intrinsics read_intrinsics(const JsonObject& object, const std::string& width_key,
                            const std::string& height_key);
+
+/// The rigid transform (metres) under "world_to_camera", four rows of four numbers. Throws InputError.
+Pose read_world_to_camera(const JsonObject& object);
 
 }  // namespace surefield
