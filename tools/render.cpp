@@ -8,63 +8,48 @@
 
 #include "engine/io/error.h"
 #include "engine/io/images.h"
-#include "engine/io/map_file.h"
 #include "engine/report/colour_maps.h"
 #include "engine/splat/engine.h"
 #include "engine/viewer/view_painter.h"
 #include "tools/command.h"
+#include "tools/render_path.h"
+#include "tools/run_folder.h"
 
 namespace surefield {
 
 namespace {
 
 constexpr const char* kRenderExamples =
-    "Writes colour.png and, as uncompressed 32-bit float TIFF: colour, opacity, depth (blended), "
-    "depth_normalised\n"
-    "(divided by the opacity), depth_median (0 where there is none), uncertainty (0 without sensor depth),\n"
-    "dominator (index of the Gaussian of the largest weight, -1 where there is none; exact up to 16777216),\n"
-    "dominator_weight and gaussian_uncertainty (what the map knows of its Gaussians' errors of depth: the "
-    "mean "
-    "of\n"
-    "those seen, in square metres). Depths are in metres. gaussian_uncertainty.png shows the root of that "
-    "from "
-    "0\n"
-    "(black) over 10 cm (red) to 20 cm (pale yellow); grey is where there is nothing.\n"
-    "With --mode, writes pictures for people instead, one PNG named after each mode (docs/viewer.md).\n"
-    "The camera is JSON: width, height, fx, fy, cx, cy (pixels, centres at integers) and world_to_camera "
-    "(four\n"
-    "rows of four numbers).\n"
+    "Of one camera, writes colour.png and, as uncompressed 32-bit float TIFF: colour, opacity, depth\n"
+    "(blended), depth_normalised (divided by the opacity), depth_median (0 where there is none), "
+    "uncertainty\n"
+    "(0 without sensor depth), dominator (index of the Gaussian of the largest weight, -1 where there is\n"
+    "none; exact up to 16777216), dominator_weight and gaussian_uncertainty (what the map knows of its\n"
+    "Gaussians' errors of depth: the mean of those seen, in square metres). Depths are in metres.\n"
+    "gaussian_uncertainty.png shows the root of that from 0 (black) over 10 cm (red) to 20 cm (pale "
+    "yellow);\n"
+    "grey is where there is nothing. With --mode, writes pictures for people instead, one PNG named after\n"
+    "each mode (docs/viewer.md).\n"
+    "The camera is JSON: width, height, fx, fy, cx, cy (pixels, centres at integers) and world_to_camera\n"
+    "(four rows of four numbers).\n"
+    "\n"
+    "With --path, writes a film, or a series of PNGs where --out is a folder; with several modes, one of\n"
+    "each. A path of keys is JSON: the camera's intrinsics as above and \"keys\", a list of {\"time\":\n"
+    "seconds, \"position\": [x, y, z], \"look_at\": [x, y, z]} or {\"time\": ..., \"world_to_camera\": "
+    "...}.\n"
     "\n"
     "Examples:\n"
     "  surefield render --map out/demo/map.ply --camera camera.json --out out/view\n"
     "  surefield render --map map.ply --camera camera.json --out view --sensor-depth depth.png --depth-scale "
     "5000\n"
     "  surefield render --map map.ply --camera camera.json --out view --mode depth --mode ellipsoids\n"
-    "  surefield render --map map.ply --camera camera.json --out view --mode error --sensor-colour rgb.png\n";
+    "  surefield render --map map.ply --camera camera.json --out view --mode error --sensor-colour rgb.png\n"
+    "  surefield render --map map.ply --path orbit --out orbit.mp4\n"
+    "  surefield render --run out/desk --path follow --show trajectory --show camera --out follow.mp4\n"
+    "  surefield render --run out/desk --path trajectory --mode colour --mode error --out frames\n"
+    "  surefield render --map map.ply --path keys.json --size 1280x720 --out flight.avi\n";
 
-constexpr const char* kAllModes = "all";
 constexpr double kPaleYellow = 0.2;  // metres, the end of the scale of gaussian_uncertainty.png
-
-struct RenderOptions {
-  std::string map;
-  std::string camera;
-  std::string out;
-  std::string sensor_depth;        ///< empty: none
-  double depth_scale = 0;          ///< steps per metre
-  std::string sensor_colour;       ///< empty: none
-  std::vector<std::string> modes;  ///< empty: values and not pictures
-  ViewSettings view;
-  EngineOptions engine;
-};
-
-GaussianCloud load_map(const std::string& file) {
-  MapFile map = read_map(file);
-  if (map.dropped > 0) {
-    fmt::print(stderr, "surefield: warning: {}: {} Gaussians are not finite and were left out\n", file,
-               map.dropped);
-  }
-  return std::move(map.cloud);
-}
 
 std::vector<float> read_sensor_depth(const RenderOptions& options, const Intrinsics& intrinsics) {
   if (!(options.depth_scale >= 1)) {
@@ -138,23 +123,10 @@ const char* missing_for(ViewMode mode, const RenderOptions& options) {
   return options.sensor_colour.empty() ? "--sensor-colour" : nullptr;
 }
 
-/// The modes that the user asks for; "all" are those for which there is what they need.
-std::vector<ViewMode> chosen_modes(const RenderOptions& options) {
-  std::vector<ViewMode> modes;
-  for (const ViewModeInfo& info : view_modes()) {
-    const auto asked = [&](const char* name) {
-      return std::find(options.modes.begin(), options.modes.end(), name) != options.modes.end();
-    };
-    const char* missing = missing_for(info.mode, options);
-    if (asked(info.name) && missing) throw InputError(fmt::format("--mode {} needs {}", info.name, missing));
-    if (asked(info.name) || (asked(kAllModes) && !missing)) modes.push_back(info.mode);
-  }
-  return modes;
-}
-
 void write_pictures(const RenderOptions& options, const Camera& camera, const GaussianCloud& cloud,
                     std::vector<float> sensor_depth) {
-  const std::vector<ViewMode> modes = chosen_modes(options);
+  const std::vector<ViewMode> modes =
+      chosen_modes(options, [&](ViewMode mode) { return missing_for(mode, options); });
   const Intrinsics& k = camera.intrinsics;
   cv::Mat colour(k.height, k.width, CV_8UC3, cv::Scalar::all(0));
   if (!options.sensor_colour.empty()) colour = read_sensor_colour(options.sensor_colour, k);
@@ -177,11 +149,21 @@ void write_pictures(const RenderOptions& options, const Camera& camera, const Ga
   }
 }
 
+/// The file of the map, which may be that of a run.
+std::string file_of_map(const RenderOptions& options) {
+  return options.map.empty() ? read_run(options.run).map_file().string() : options.map;
+}
+
 int render(const RenderOptions& options) {
+  if (options.map.empty() && options.run.empty())
+    throw InputError("give the map with --map, or a run that has left one with --run");
+  if (!options.path.empty()) return render_path(options);
+  if (options.camera.empty())
+    throw InputError("give the camera with --camera, or a path with --path: orbit, for example");
   const Camera camera = read_camera(options.camera);
   std::vector<float> sensor_depth;
   if (!options.sensor_depth.empty()) sensor_depth = read_sensor_depth(options, camera.intrinsics);
-  const GaussianCloud cloud = load_map(options.map);
+  const GaussianCloud cloud = load_finite_map(file_of_map(options));
   std::error_code error;
   std::filesystem::create_directories(options.out, error);
   if (error) throw InputError(options.out, "cannot be created: " + error.message());
@@ -199,14 +181,42 @@ int render(const RenderOptions& options) {
   return kSuccess;
 }
 
+/// The options of films.
+void add_path_options(CLI::App& command, RenderOptions& options) {
+  command.add_option("--path", options.path,
+                     "Renders a film along a path: orbit (around the map), follow (behind the run's camera), "
+                     "trajectory (the run's), truth (the dataset's), or a JSON file of keys");
+  command.add_option("--run", options.run, "Folder that surefield run has written");
+  command.add_option("--dataset", options.dataset, "Where the run's dataset is now");
+  command
+      .add_option("--show", options.shown,
+                  "Shows this of the run over the pictures; may be given several times. sensor: the camera's "
+                  "image in a corner")
+      ->check(CLI::IsMember(shown_things()))
+      ->allow_extra_args(false)
+      ->take_all();
+  add_size_option(command, "--size", options.size,
+                  "Size of the film; the whole field of view stays in it. Default: that of the camera, else "
+                  "960x540");
+  command.add_option("--fps", options.rate, "Pictures a second of the film")
+      ->check(CLI::Range(1.0, 240.0))
+      ->capture_default_str();
+  command.add_option("--seconds", options.seconds, "Duration of an orbit")
+      ->check(CLI::Range(0.1, 3600.0))
+      ->capture_default_str();
+}
+
 }  // namespace
 
 void add_render(CLI::App& program, Action& action) {
   auto options = std::make_shared<RenderOptions>();
   CLI::App* command = program.add_subcommand("render", "Renders a map from one camera");
-  command->add_option("--map", options->map, "Gaussians: PLY in the usual layout, or SPZ")->required();
-  command->add_option("--camera", options->camera, "Camera, JSON")->required();
-  command->add_option("--out", options->out, "Folder of the images")->required();
+  command->add_option("--map", options->map,
+                      "Gaussians: PLY in the usual layout, or SPZ; default: the map of the run");
+  command->add_option("--camera", options->camera, "Camera, JSON; along a path, only its intrinsics count");
+  command->add_option("--out", options->out, "Folder of the images; along a path, also a film: .mp4 or .avi")
+      ->required();
+  add_path_options(*command, *options);
   CLI::Option* depth = command->add_option("--sensor-depth", options->sensor_depth,
                                            "16-bit PNG of the camera's size, 0 is no measurement; gives the "
                                            "uncertainty");

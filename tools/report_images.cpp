@@ -35,15 +35,15 @@ std::string to_html(const Cell& cell) {
 }
 
 /// A frame of the sensor at the size of a run, and its scale of depth.
-struct SensorFrame {
+struct SensorImages {
   Frame frame;
   double depth_max = 0;  ///< metres
   cv::Mat valid;         ///< CV_8UC1, not 0 where the depth takes part
   ColourScale depth_scale;
 };
 
-SensorFrame prepare(const Frame& frame, double depth_max) {
-  SensorFrame sensor{frame, depth_max, (frame.depth > 0) & (frame.depth <= depth_max), {}};
+SensorImages prepare(const Frame& frame, double depth_max) {
+  SensorImages sensor{frame, depth_max, (frame.depth > 0) & (frame.depth <= depth_max), {}};
   double low = 0, high = depth_max;
   if (cv::countNonZero(sensor.valid) > 0)
     cv::minMaxLoc(frame.depth, &low, &high, nullptr, nullptr, sensor.valid);
@@ -76,13 +76,14 @@ struct Row {
   std::vector<Cell> depth;
 };
 
-void add_sensor(Row& row, const SensorFrame& sensor) {
+void add_sensor(Row& row, const SensorImages& sensor) {
   row.colour.push_back({html_image(sensor.frame.colour, "sensor image", kWidestImage), "sensor"});
   const cv::Mat depth = apply_colours(sensor.frame.depth, sensor.valid, sensor.depth_scale);
   row.depth.push_back({html_image(depth, "sensor depth", kWidestImage), "sensor depth"});
 }
 
-void add_render(Row& row, const SensorFrame& sensor, const RenderedFrame& rendered, const std::string& name) {
+void add_render(Row& row, const SensorImages& sensor, const RenderedFrame& rendered,
+                const std::string& name) {
   cv::Mat truth, difference, grey;
   sensor.frame.colour.convertTo(truth, CV_32FC3, 1.0 / 255);
   cv::absdiff(rendered.colour, truth, difference);
@@ -148,8 +149,8 @@ class ImageBlock {
       const QualityView& view = views[*position];
       const LoadedFrame loaded = run.dataset->load(frames_[k]);
       if (!loaded.frame || !view.camera.world_to_camera.matrix().allFinite()) continue;
-      SensorFrame sensor = prepare(resize_frame(*loaded.frame, run.folder.number("/dataset/scale")),
-                                   run.folder.number("/dataset/depth_max_m"));
+      SensorImages sensor = prepare(resize_frame(*loaded.frame, run.folder.number("/dataset/scale")),
+                                    run.folder.number("/dataset/depth_max_m"));
       if (rows_[k].colour.empty()) {
         add_sensor(rows_[k], sensor);
         scales_[k] = sensor.depth_scale;

@@ -3,6 +3,7 @@
 
 #include "engine/io/map_file.h"
 #include "tools/command.h"
+#include "tools/run_film.h"
 #include "tools/run_session.h"
 
 namespace surefield {
@@ -20,13 +21,22 @@ constexpr const char* kRunExamples =
     "Examples:\n"
     "  surefield run --dataset synthetic --out out/demo\n"
     "  surefield run --dataset rgbd_dataset_freiburg1_desk --out out/desk --frames 100 --scale 0.5\n"
-    "  surefield run --dataset Replica/room0 --out out/room0 --set tracking.renders=5 --set seed=2\n";
+    "  surefield run --dataset Replica/room0 --out out/room0 --set tracking.renders=5 --set seed=2\n"
+    "  surefield run --dataset synthetic --out out/demo --film out/demo.mp4\n";
 
 /// What --format may be here: the embedded sequence has a format of its own.
 std::vector<std::string> run_formats() {
   std::vector<std::string> formats = known_formats();
   formats.push_back("synthetic");
   return formats;
+}
+
+int run_and_film(const RunOptions& options) {
+  std::optional<RunFilm> film;
+  RunObservers observers;
+  if (!options.film.empty()) observers.push_back(&film.emplace(options));
+  const int code = run_session(options, observers);
+  return code == kSuccess && film && film->failed() ? kFailure : code;
 }
 
 }  // namespace
@@ -67,9 +77,13 @@ void add_run(CLI::App& program, Action& action) {
   run->add_option("--device", options->engine.device,
                   "Number or part of the name of the device, see surefield devices; default: the best");
   run->add_flag("--validate", options->engine.validate, "Runs under Vulkan's validation layer (slow)");
+  run->add_option("--film", options->film,
+                  "Films the run in the third person into this file, .mp4 or .avi, or a folder of PNGs "
+                  "(docs/viewer.md)");
+  add_size_option(*run, "--film-size", options->film_size, "Size of the film; default: 1280x720");
   run->add_flag("--quiet", options->quiet, "Prints errors only");
   run->footer(kRunExamples);
-  run->callback([options, &action] { action = [options] { return run_session(*options); }; });
+  run->callback([options, &action] { action = [options] { return run_and_film(*options); }; });
 }
 
 }  // namespace surefield

@@ -7,6 +7,7 @@
 
 #include "engine/io/frame_stream.h"
 #include "engine/slam/settings.h"
+#include "tools/picture_size.h"
 
 namespace surefield {
 
@@ -22,6 +23,8 @@ struct RunOptions {
   FrameSelection selection;
   EngineOptions engine;
   bool quiet = false;
+  std::string film;  ///< file of a film of the run; empty: none
+  PictureSize film_size{1280, 720};
 };
 
 /// Opens the dataset that the options name. Throws InputError; where the options say no delay of the depth

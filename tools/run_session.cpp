@@ -80,12 +80,14 @@ void write_text(const std::filesystem::path& file, const std::string& text) {
 /// Feeds the frames of a stream to SLAM and keeps account.
 class Feeder {
  public:
-  Feeder(FrameStream& stream, Slam& slam, spdlog::logger& log, bool quiet)
-      : stream_(stream), slam_(slam), log_(log), progress_(stream.size(), quiet) {}
+  Feeder(FrameStream& stream, Slam& slam, spdlog::logger& log, const RunObservers& observers, bool quiet)
+      : stream_(stream), slam_(slam), log_(log), observers_(observers), progress_(stream.size(), quiet) {}
 
   /// Until the last frame, an interruption or an error, which is thrown.
   void feed_all() {
     while (!interrupted()) {
+      for (RunObserver* observer : observers_) observer->before_frame(slam_);
+      if (interrupted()) return;
       const std::optional<Frame> frame = stream_.next();
       note_unreadable();
       if (!frame) return slam_.finish();
@@ -107,6 +109,7 @@ class Feeder {
           report.tracking_loss, report.valid_fraction, report.tracking_iterations, report.tracking_ms,
           report.mapping_iterations, report.mapping_ms, report.gaussians);
       progress_.fed(report);
+      for (RunObserver* observer : observers_) observer->fed(frame, slam_, report);
     } catch (const gpu::Error&) {
       throw;
     } catch (const std::bad_alloc&) {
@@ -129,6 +132,7 @@ class Feeder {
   FrameStream& stream_;
   Slam& slam_;
   spdlog::logger& log_;
+  const RunObservers& observers_;
   Progress progress_;
   std::size_t unreadable_ = 0;  ///< of stream_.skipped(), those noted so far
   std::vector<SkippedFrame> skipped_;
@@ -159,10 +163,10 @@ RunRecord start_record(const RunOptions& options, const Dataset& dataset, const 
 /// Feeds the stream to its end, or to an interruption or an error, which is returned; `record` learns how it
 /// went.
 std::exception_ptr feed_stream(RunRecord& record, FrameStream& stream, Slam& slam, spdlog::logger& log,
-                               bool quiet) {
+                               const RunObservers& observers, bool quiet) {
   std::exception_ptr failure;
   const Clock::time_point start = Clock::now();
-  Feeder feeder(stream, slam, log, quiet);
+  Feeder feeder(stream, slam, log, observers, quiet);
   try {
     feeder.feed_all();
   } catch (...) {
@@ -259,7 +263,7 @@ void announce(spdlog::logger& log, const RunRecord& record, const Dataset& datas
 
 }  // namespace
 
-int run_session(const RunOptions& asked) {
+int run_session(const RunOptions& asked, const RunObservers& observers) {
   catch_interrupts();
   const RunOptions options = with_depth_delay(asked);
   const auto dataset = open_run_dataset(options);
@@ -276,10 +280,14 @@ int run_session(const RunOptions& asked) {
   record.setup_seconds = seconds_since(start);
   announce(results.log(), record, *dataset, slam, options.quiet);
 
-  const std::exception_ptr failure = feed_stream(record, stream, slam, results.log(), options.quiet);
+  for (RunObserver* observer : observers)
+    observer->begin({*dataset, settings, stream.intrinsics(), stream.size(), results.log()});
+  const std::exception_ptr failure =
+      feed_stream(record, stream, slam, results.log(), observers, options.quiet);
   complete_record(record, slam, *dataset);
   save_results(results, record, slam, *dataset, options.map_format);
   report(results, record, options.quiet);
+  for (RunObserver* observer : observers) observer->finished(slam);
   for (const std::string& problem : results.problems()) print_error(problem);
   if (failure) std::rethrow_exception(failure);
   if (!results.problems().empty()) return kFailure;

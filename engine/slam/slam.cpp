@@ -50,6 +50,7 @@ struct Slam::Implementation {
   std::vector<TrackedFrame> frames;
   std::vector<FrameReport> reports;
   std::deque<double> recent_losses;
+  std::vector<int> window;                              ///< keyframes that were optimised together last
   std::vector<int> reference_keyframes;                 ///< whose images frames are aligned to beside the map
   std::optional<std::pair<Frame, FrameHandle>> newest;  ///< the last frame fed, unless it is a keyframe
   int last_keyframe_frame = 0;                          ///< position among the frames fed
@@ -182,6 +183,7 @@ void Slam::Implementation::initialise(const Frame& frame, FrameReport& report) {
   densify();
   optimise(std::vector<int>(settings.first_iterations - half, 0), {}, report);
   align_to({0});
+  window = {0};
   report.keyframe = true;
 }
 
@@ -247,20 +249,21 @@ void Slam::Implementation::add_keyframe(const Frame& frame, FrameHandle handle, 
 }
 
 void Slam::Implementation::map_window(FrameReport& report) {
-  const KeyframeWindow window = covisibility.window(keyframes, region.near());
-  const auto order = mapping_order(window, region.near(), settings.mapping_iterations,
+  const KeyframeWindow chosen = covisibility.window(keyframes, region.near());
+  const auto order = mapping_order(chosen, region.near(), settings.mapping_iterations,
                                    settings.keyframes.past_keyframes, random);
   std::vector<int> refined;
   const bool refines = settings.mapping.rate_pose_rotation > 0 || settings.mapping.rate_pose_translation > 0;
-  for (int member : window.members)
-    if (refines && member != window.fixed) refined.push_back(member);
+  for (int member : chosen.members)
+    if (refines && member != chosen.fixed) refined.push_back(member);
   const auto middle = order.begin() + static_cast<std::ptrdiff_t>(order.size() / 2);
   optimise({order.begin(), middle}, refined, report);
-  judge(window.members, report);
+  judge(chosen.members, report);
   densify();
   optimise({middle, order.end()}, refined, report);
   report.world_to_camera = keyframes.back().camera.world_to_camera;
-  align_to(window.members);
+  align_to(chosen.members);
+  window = chosen.members;
 }
 
 /// Takes keyframes of the window, the newest first, as what frames are aligned to beside the map.
@@ -302,6 +305,10 @@ void Slam::Implementation::densify() {
   densify.extent = extent;
   densify.seed = random();
   engine.densify(densify);
+}
+
+const std::vector<int>& Slam::window() const {
+  return implementation_->window;
 }
 
 Trajectory Slam::trajectory() const {

@@ -57,6 +57,8 @@ class Slam {
   Trajectory trajectory() const;
   /// The keyframes alone.
   Trajectory keyframes() const;
+  /// Those that were optimised together last: positions in keyframes(), the newest last.
+  const std::vector<int>& window() const;
   /// The Gaussian map.
   GaussianCloud map() const;
   /// Renders the map; world frame as in trajectory().

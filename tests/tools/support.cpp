@@ -5,8 +5,10 @@
 #include <sys/resource.h>
 #include <sys/wait.h>
 
+#include <chrono>
 #include <cstdlib>
 #include <set>
+#include <thread>
 
 #include "engine/io/files.h"
 
@@ -103,6 +105,14 @@ std::vector<std::string> short_run(const std::filesystem::path& out, int frames)
           "tracking.iterations=3",
           "--set",
           "keyframes.interval=2"};
+}
+
+void wait_for(const std::filesystem::path& file, const std::string& text) {
+  for (int i = 0; i < 6000; ++i) {
+    if (std::filesystem::exists(file) && contains(read_file(file), text)) return;
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  }
+  FAIL("no \"", text, "\" in ", file.string());
 }
 
 nlohmann::json read_json(const std::filesystem::path& file) {

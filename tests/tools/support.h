@@ -48,6 +48,9 @@ Outcome surefield_command(std::vector<std::string> arguments, const std::filesys
 /// The arguments of a run over the embedded sequence that is as short as can be, with results in `out`.
 std::vector<std::string> short_run(const std::filesystem::path& out, int frames = 3);
 
+/// Waits until a file holds a text, at most a minute.
+void wait_for(const std::filesystem::path& file, const std::string& text);
+
 nlohmann::json read_json(const std::filesystem::path& file);
 
 }  // namespace surefield::test

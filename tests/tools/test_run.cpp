@@ -1,10 +1,8 @@
 #include <signal.h>
 
 #include <algorithm>
-#include <chrono>
 #include <set>
 #include <sstream>
-#include <thread>
 
 #include "engine/io/files.h"
 #include "engine/io/images.h"
@@ -24,15 +22,6 @@ std::set<std::string> keys(const nlohmann::json& object) {
   std::set<std::string> names;
   for (const auto& item : object.items()) names.insert(item.key());
   return names;
-}
-
-/// Waits until a file holds a text, at most a minute.
-void wait_for(const std::filesystem::path& file, const std::string& text) {
-  for (int i = 0; i < 6000; ++i) {
-    if (std::filesystem::exists(file) && contains(read_file(file), text)) return;
-    std::this_thread::sleep_for(std::chrono::milliseconds(10));
-  }
-  FAIL("no \"", text, "\" in ", file.string());
 }
 
 /// Writes the first frames of a small synthetic sequence in the layout of Replica.
