@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "engine/eval/check_scene.h"
+#include "engine/io/error.h"
 #include "engine/io/frame_stream.h"
 #include "engine/io/median.h"
 
@@ -61,7 +62,11 @@ std::vector<Trials> run_trials(const Dataset& dataset, double delay, const OpenD
   std::array<std::unique_ptr<Dataset>, 3> datasets;
   std::array<std::map<double, int>, 3> frames;  // by the stamp of the colour image
   for (int k = 0; k < 3; ++k) {
-    datasets[k] = open(added[k]);
+    try {
+      datasets[k] = open(added[k]);
+    } catch (const InputError&) {
+      return {};  // nothing belongs together then
+    }
     for (int i = 0; i < datasets[k]->size(); ++i) frames[k][datasets[k]->timestamp(i)] = i;
   }
   std::vector<Trials> all;

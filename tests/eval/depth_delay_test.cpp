@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "engine/io/error.h"
 #include "tests/eval/planes.h"
 #include "tests/io/support.h"
 
@@ -60,6 +61,11 @@ TEST_CASE(
     return nullptr;
   };
   CHECK(estimate_depth_delay(PlanesDataset(30), open) == 0);
+}
+
+TEST_CASE("nothing fits together one image earlier or later: no delay") {
+  const auto open = [](double) -> std::unique_ptr<Dataset> { throw InputError("no pairs"); };
+  CHECK(estimate_depth_delay(Paired(0.04, 0), open) == 0);
 }
 
 TEST_CASE("too few frames: no delay") {
