@@ -28,6 +28,7 @@ void add_eval(CLI::App& program, Action& action);
 void add_inspect(CLI::App& program, Action& action);
 void add_fetch(CLI::App& program, Action& action);
 void add_render(CLI::App& program, Action& action);
+void add_view(CLI::App& program, Action& action);
 void add_report(CLI::App& program, Action& action);
 void add_tables(CLI::App& program, Action& action);
 void add_export(CLI::App& program, Action& action);

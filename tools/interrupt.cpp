@@ -31,6 +31,10 @@ void catch_interrupts() {
   sigaction(SIGTERM, &action, nullptr);
 }
 
+void interrupt() {
+  stop_requested = true;
+}
+
 bool interrupted() {
   return stop_requested;
 }

@@ -6,6 +6,9 @@ namespace surefield {
 /// at once with exit code 130.
 void catch_interrupts();
 
+/// Does what a first Ctrl-C does.
+void interrupt();
+
 /// Whether the user asked to stop.
 bool interrupted();
 

@@ -5,6 +5,7 @@
 #include "tools/command.h"
 #include "tools/run_film.h"
 #include "tools/run_session.h"
+#include "tools/run_viewer.h"
 
 namespace surefield {
 
@@ -22,7 +23,8 @@ constexpr const char* kRunExamples =
     "  surefield run --dataset synthetic --out out/demo\n"
     "  surefield run --dataset rgbd_dataset_freiburg1_desk --out out/desk --frames 100 --scale 0.5\n"
     "  surefield run --dataset Replica/room0 --out out/room0 --set tracking.renders=5 --set seed=2\n"
-    "  surefield run --dataset synthetic --out out/demo --film out/demo.mp4\n";
+    "  surefield run --dataset synthetic --out out/demo --film out/demo.mp4\n"
+    "  surefield run --dataset synthetic --out out/demo --viewer\n";
 
 /// What --format may be here: the embedded sequence has a format of its own.
 std::vector<std::string> run_formats() {
@@ -31,11 +33,11 @@ std::vector<std::string> run_formats() {
   return formats;
 }
 
-int run_and_film(const RunOptions& options) {
+int run_watched(const RunOptions& options) {
   std::optional<RunFilm> film;
   RunObservers observers;
   if (!options.film.empty()) observers.push_back(&film.emplace(options));
-  const int code = run_session(options, observers);
+  const int code = options.viewer ? run_with_viewer(options, observers) : run_session(options, observers);
   return code == kSuccess && film && film->failed() ? kFailure : code;
 }
 
@@ -81,9 +83,12 @@ void add_run(CLI::App& program, Action& action) {
                   "Films the run in the third person into this file, .mp4 or .avi, or a folder of PNGs "
                   "(docs/viewer.md)");
   add_size_option(*run, "--film-size", options->film_size, "Size of the film; default: 1280x720");
+  run->add_flag(
+      "--viewer", options->viewer,
+      "Shows the map while it grows, in a window; closing it does not end the run (docs/viewer.md)");
   run->add_flag("--quiet", options->quiet, "Prints errors only");
   run->footer(kRunExamples);
-  run->callback([options, &action] { action = [options] { return run_and_film(*options); }; });
+  run->callback([options, &action] { action = [options] { return run_watched(*options); }; });
 }
 
 }  // namespace surefield

@@ -25,6 +25,7 @@ struct RunOptions {
   bool quiet = false;
   std::string film;  ///< file of a film of the run; empty: none
   PictureSize film_size{1280, 720};
+  bool viewer = false;  ///< shows a window beside the run
 };
 
 /// Opens the dataset that the options name. Throws InputError; where the options say no delay of the depth

@@ -67,7 +67,8 @@ DeviceLimits read_limits(VkPhysicalDevice physical, const DeviceReport& report) 
 }  // namespace
 
 Device::Device(const DeviceOptions& options) {
-  instance_ = create_instance(options.validate);
+  const bool with_window = !options.window_extensions.empty();
+  instance_ = create_instance(options.validate, options.window_extensions);
   try {
     if (options.validate) {
       validation_ = std::make_unique<Validation>();
@@ -92,7 +93,12 @@ Device::Device(const DeviceOptions& options) {
     limits_.push_descriptors =
         !options.force_descriptor_pool && has_extension(physical_, VK_KHR_PUSH_DESCRIPTOR_EXTENSION_NAME);
     vkGetPhysicalDeviceMemoryProperties(physical_, &memory_);
-    create_logical_device();
+    queue_family_ = compute_queue_family(physical_, with_window);
+    if (with_window &&
+        (queue_family_ == UINT32_MAX || !has_extension(physical_, VK_KHR_SWAPCHAIN_EXTENSION_NAME)))
+      throw Error(Error::Kind::MissingFeature,
+                  fmt::format("{} cannot show windows: choose another --device", report_.name));
+    create_logical_device(with_window);
     create_pipeline_builder(options.cache_folder);
   } catch (...) {
     destroy();
@@ -115,8 +121,7 @@ void Device::destroy() {
   vkDestroyInstance(instance_, nullptr);
 }
 
-void Device::create_logical_device() {
-  queue_family_ = compute_queue_family(physical_);
+void Device::create_logical_device(bool with_swapchain) {
   const float priority = 1.0f;
   VkDeviceQueueCreateInfo queue{VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO};
   queue.queueFamilyIndex = queue_family_;
@@ -132,6 +137,7 @@ void Device::create_logical_device() {
 
   std::vector<const char*> extensions;
   if (limits_.push_descriptors) extensions.push_back(VK_KHR_PUSH_DESCRIPTOR_EXTENSION_NAME);
+  if (with_swapchain) extensions.push_back(VK_KHR_SWAPCHAIN_EXTENSION_NAME);
   VkDeviceCreateInfo info{VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO, &features.core};
   info.queueCreateInfoCount = 1;
   info.pQueueCreateInfos = &queue;

@@ -27,6 +27,9 @@ struct DeviceOptions {
   bool force_descriptor_pool = false;
   /// Where what the driver compiles is kept between runs. Empty: user_cache_folder().
   std::filesystem::path cache_folder;
+  /// Instance extensions that windows need. Not empty: the queue also draws, and the device can have a
+  /// swapchain; see WindowHandles.
+  std::vector<std::string> window_extensions;
 };
 
 /// What `surefield devices` prints about one device.
@@ -62,6 +65,15 @@ struct DeviceLimits {
 
 class PipelineBuilder;
 
+/// What a window needs of a device that was opened with window extensions, to present pictures with.
+struct WindowHandles {
+  VkInstance instance = VK_NULL_HANDLE;
+  VkPhysicalDevice physical = VK_NULL_HANDLE;
+  VkDevice device = VK_NULL_HANDLE;
+  VkQueue queue = VK_NULL_HANDLE;  ///< no other thread may submit while the window uses it
+  uint32_t queue_family = 0;
+};
+
 /// Device time of one recorded dispatch.
 struct PassTime {
   const char* pass;
@@ -80,6 +92,7 @@ class Device {
   const DeviceReport& report() const { return report_; }
   const DeviceLimits& limits() const { return limits_; }
   VkDevice handle() const { return device_; }
+  WindowHandles window_handles() const { return {instance_, physical_, device_, queue_, queue_family_}; }
   uint32_t queue_family() const { return queue_family_; }
   PFN_vkCmdPushDescriptorSetKHR push_descriptor_set() const { return push_descriptor_set_; }
 
@@ -111,7 +124,7 @@ class Device {
   std::vector<std::string> validation_messages() const;
 
  private:
-  void create_logical_device();
+  void create_logical_device(bool with_swapchain);
   void create_pipeline_builder(const std::filesystem::path& cache_folder);
   void destroy();
 

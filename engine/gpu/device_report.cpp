@@ -80,13 +80,14 @@ int preference(const DeviceReport& report) {
 
 }  // namespace
 
-VkInstance create_instance(bool validate) {
+VkInstance create_instance(bool validate, const std::vector<std::string>& extensions) {
   const VkApplicationInfo application{
       VK_STRUCTURE_TYPE_APPLICATION_INFO, nullptr, "surefield", 1, "surefield", 1, VK_API_VERSION_1_3};
   VkInstanceCreateInfo info{VK_STRUCTURE_TYPE_INSTANCE_CREATE_INFO};
   info.pApplicationInfo = &application;
   const char* layer = "VK_LAYER_KHRONOS_validation";
-  const char* extensions[] = {VK_EXT_DEBUG_UTILS_EXTENSION_NAME, VK_EXT_VALIDATION_FEATURES_EXTENSION_NAME};
+  std::vector<const char*> names;
+  for (const std::string& extension : extensions) names.push_back(extension.c_str());
   const VkValidationFeatureEnableEXT enabled[] = {
       VK_VALIDATION_FEATURE_ENABLE_SYNCHRONIZATION_VALIDATION_EXT};
   VkValidationFeaturesEXT features{VK_STRUCTURE_TYPE_VALIDATION_FEATURES_EXT};
@@ -95,10 +96,11 @@ VkInstance create_instance(bool validate) {
   if (validate) {
     info.enabledLayerCount = 1;
     info.ppEnabledLayerNames = &layer;
-    info.enabledExtensionCount = 2;
-    info.ppEnabledExtensionNames = extensions;
+    names.insert(names.end(), {VK_EXT_DEBUG_UTILS_EXTENSION_NAME, VK_EXT_VALIDATION_FEATURES_EXTENSION_NAME});
     info.pNext = &features;
   }
+  info.enabledExtensionCount = static_cast<uint32_t>(names.size());
+  info.ppEnabledExtensionNames = names.data();
   VkInstance instance = VK_NULL_HANDLE;
   const VkResult result = vkCreateInstance(&info, nullptr, &instance);
   if (result == VK_ERROR_LAYER_NOT_PRESENT || result == VK_ERROR_EXTENSION_NOT_PRESENT)
@@ -130,13 +132,14 @@ bool has_extension(VkPhysicalDevice device, const char* name) {
                      [&](const auto& e) { return std::strcmp(e.extensionName, name) == 0; });
 }
 
-uint32_t compute_queue_family(VkPhysicalDevice device) {
+uint32_t compute_queue_family(VkPhysicalDevice device, bool with_graphics) {
+  const VkQueueFlags needed = VK_QUEUE_COMPUTE_BIT | (with_graphics ? VK_QUEUE_GRAPHICS_BIT : 0);
   uint32_t count = 0;
   vkGetPhysicalDeviceQueueFamilyProperties(device, &count, nullptr);
   std::vector<VkQueueFamilyProperties> families(count);
   vkGetPhysicalDeviceQueueFamilyProperties(device, &count, families.data());
   for (uint32_t i = 0; i < count; ++i)
-    if (families[i].queueFlags & VK_QUEUE_COMPUTE_BIT) return i;
+    if ((families[i].queueFlags & needed) == needed) return i;
   return UINT32_MAX;
 }
 

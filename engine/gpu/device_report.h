@@ -13,8 +13,9 @@ struct FeatureChain {
   FeatureChain(const FeatureChain&) = delete;
 };
 
-/// Creates an instance; with `validate`, the Khronos layer with synchronisation validation.
-VkInstance create_instance(bool validate);
+/// Creates an instance with these extensions; with `validate`, the Khronos layer with synchronisation
+/// validation.
+VkInstance create_instance(bool validate, const std::vector<std::string>& extensions = {});
 
 /// The physical devices of an instance, in the loader's order.
 std::vector<VkPhysicalDevice> physical_devices(VkInstance instance);
@@ -25,8 +26,8 @@ DeviceReport describe(VkPhysicalDevice device, uint32_t index);
 /// Whether the device offers an extension.
 bool has_extension(VkPhysicalDevice device, const char* name);
 
-/// The first queue family with compute, or UINT32_MAX.
-uint32_t compute_queue_family(VkPhysicalDevice device);
+/// The first queue family with compute, and graphics where that is asked for; or UINT32_MAX.
+uint32_t compute_queue_family(VkPhysicalDevice device, bool with_graphics = false);
 
 /// Index into `reports` of the device that `selector` names (DeviceOptions::selector). Throws
 /// Error(NoDevice).

@@ -56,6 +56,12 @@ const ConfigSchema::Entry* ConfigSchema::find(const std::string& key) const {
   return found == entries_.end() ? nullptr : &*found;
 }
 
+NumberSetting ConfigSchema::number(const std::string& key) const {
+  const Entry* entry = find(key);
+  if (!entry || !entry->number) throw std::logic_error("there is no number " + key);
+  return entry->number();
+}
+
 bool ConfigSchema::is_section(const std::string& key) const {
   return std::any_of(entries_.begin(), entries_.end(),
                      [&](const Entry& entry) { return entry.key.starts_with(key + "."); });

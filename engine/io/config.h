@@ -30,6 +30,15 @@ using Choices = std::vector<std::pair<std::string, T>>;
 /// Configuration files that the program carries inside it: text by name.
 using BuiltInFiles = std::map<std::string, std::string>;
 
+/// A number that can be set, as it is now.
+struct NumberSetting {
+  std::string key;
+  std::string help;  ///< one line: meaning and unit
+  Range range;
+  bool whole = false;  ///< a whole number
+  double value = 0;
+};
+
 /// Typed configuration: modules bind dotted keys to the fields of their settings, and the user's values are
 /// checked before they are stored. What a field holds when it is added is its default.
 ///
@@ -76,6 +85,9 @@ class ConfigSchema {
   /// InputError.
   void set(const std::string& assignment);
 
+  /// The number of this key. Throws std::logic_error where no number has it.
+  NumberSetting number(const std::string& key) const;
+
   /// The effective configuration as YAML that load_file accepts: every key in the order in which it was added
   /// (grouped by section), each with its help as a comment.
   std::string dump() const;
@@ -89,10 +101,13 @@ class ConfigSchema {
     std::string help;
     bool is_list = false;  ///< given as a YAML list, also on the command line
     Parser parse;
-    std::function<std::string()> print;  ///< the current value as YAML
+    std::function<std::string()> print;               ///< the current value as YAML
+    std::function<NumberSetting()> number = nullptr;  ///< where it is one
   };
 
   void add_entry(Entry entry);
+  template <typename T>
+  void add_number(const std::string& key, T* value, Range range, const std::string& help, const char* kind);
   void add_choice(const std::string& key, const std::vector<std::string>& names,
                   std::function<void(std::size_t)> store, std::function<std::size_t()> load,
                   const std::string& help);

@@ -6,6 +6,7 @@
 #include <charconv>
 #include <optional>
 #include <stdexcept>
+#include <type_traits>
 
 #include "engine/io/config.h"
 
@@ -60,19 +61,26 @@ std::string with_range(const std::string& help, Range range) {
 
 }  // namespace
 
+template <typename T>
+void ConfigSchema::add_number(const std::string& key, T* value, Range range, const std::string& help,
+                              const char* kind) {
+  const auto number = [=] {
+    return NumberSetting{key, help, range, std::is_integral_v<T>, static_cast<double>(*value)};
+  };
+  add_entry({key, with_range(help, range), false, number_parser(value, range, kind), number_printer(value),
+             number});
+}
+
 void ConfigSchema::add(const std::string& key, int* value, Range range, const std::string& help) {
-  add_entry({key, with_range(help, range), false, number_parser(value, range, "a whole number"),
-             number_printer(value)});
+  add_number(key, value, range, help, "a whole number");
 }
 
 void ConfigSchema::add(const std::string& key, float* value, Range range, const std::string& help) {
-  add_entry(
-      {key, with_range(help, range), false, number_parser(value, range, "a number"), number_printer(value)});
+  add_number(key, value, range, help, "a number");
 }
 
 void ConfigSchema::add(const std::string& key, double* value, Range range, const std::string& help) {
-  add_entry(
-      {key, with_range(help, range), false, number_parser(value, range, "a number"), number_printer(value)});
+  add_number(key, value, range, help, "a number");
 }
 
 void ConfigSchema::add(const std::string& key, bool* value, const std::string& help) {

@@ -1,5 +1,6 @@
 #include "engine/io/images.h"
 
+#include <nlohmann/json.hpp>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 #include <string_view>
@@ -132,6 +133,16 @@ Camera read_camera(const std::filesystem::path& file) {
   camera.intrinsics = read_intrinsics(object, "width", "height");
   camera.world_to_camera = read_world_to_camera(object);
   return camera;
+}
+
+void write_camera(const std::filesystem::path& file, const Camera& camera) {
+  const Intrinsics& k = camera.intrinsics;
+  nlohmann::ordered_json json = {{"width", k.width}, {"height", k.height}, {"fx", k.fx},
+                                 {"fy", k.fy},       {"cx", k.cx},         {"cy", k.cy}};
+  const Eigen::Matrix4d pose = camera.world_to_camera.matrix();
+  for (int r = 0; r < 4; ++r)
+    json["world_to_camera"].push_back({pose(r, 0), pose(r, 1), pose(r, 2), pose(r, 3)});
+  write_file(file, [&](std::ostream& stream) { stream << json.dump(1) << "\n"; });
 }
 
 }  // namespace surefield

@@ -56,4 +56,8 @@ void write_jpeg(const std::filesystem::path& file, const cv::Mat& image, int qua
 /// is none.
 Camera read_camera(const std::filesystem::path& file);
 
+/// Writes a camera as read_camera() reads it; no digit is lost. Throws InputError when the file cannot be
+/// written.
+void write_camera(const std::filesystem::path& file, const Camera& camera);
+
 }  // namespace surefield

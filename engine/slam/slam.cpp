@@ -307,6 +307,18 @@ void Slam::Implementation::densify() {
   engine.densify(densify);
 }
 
+void Slam::change(const SlamSettings& settings) {
+  SlamSettings& current = implementation_->settings;
+  current.tracking = settings.tracking;
+  current.mapping = settings.mapping;
+  current.spawn = settings.spawn;
+  current.densify = settings.densify;
+  current.lost = settings.lost;
+  current.mapping_iterations = settings.mapping_iterations;
+  current.keyframes.interval = settings.keyframes.interval;
+  current.keyframes.valid_below = settings.keyframes.valid_below;
+}
+
 const std::vector<int>& Slam::window() const {
   return implementation_->window;
 }

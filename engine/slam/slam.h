@@ -52,6 +52,11 @@ class Slam {
   /// seen.
   void finish();
 
+  /// From the next frame on, takes the settings of tracking, mapping, spawning, densification and the loss of
+  /// tracking, the mapping steps per keyframe, and when a frame becomes a keyframe; all others stay as they
+  /// were at the beginning.
+  void change(const SlamSettings& settings);
+
   /// Poses of all frames so far, camera to world, in the first camera's frame. Keyframes have their refined
   /// poses, and the frames between follow the keyframe that they were tracked after.
   Trajectory trajectory() const;

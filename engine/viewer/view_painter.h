@@ -20,6 +20,8 @@ struct ViewSettings {
   float depth_near = 0;                                  ///< metres; the ends of the scale of depths
   float depth_far = 5;
   float error_far = 0.2f;  ///< metres; the end of the scale of uncertainties
+
+  bool operator==(const ViewSettings&) const = default;
 };
 
 /// Paints pictures of a map from any camera: for a window, which takes them on the device, and for files. The

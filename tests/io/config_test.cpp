@@ -235,6 +235,25 @@ TEST_CASE("single values are set as on a command line") {
   CHECK(contains(set_error("mapping.background=[1, 2"), "must be a list of 3 numbers"));
 }
 
+TEST_CASE("a number tells its range, its help and its value") {
+  int steps = 3;
+  double rate = 0.5;
+  bool flag = true;
+  ConfigSchema schema;
+  schema.add("steps", &steps, Range{1, 9}, "how many");
+  schema.add("part.rate", &rate, Range{0, 2}, "how fast");
+  schema.add("flag", &flag, "whether");
+  schema.set("part.rate=1.5");
+  const NumberSetting number = schema.number("part.rate");
+  CHECK(number.value == 1.5);
+  CHECK(number.range.max == 2);
+  CHECK(number.help == "how fast");
+  CHECK_FALSE(number.whole);
+  CHECK(schema.number("steps").whole);
+  CHECK_THROWS_AS(schema.number("flag"), std::logic_error);
+  CHECK_THROWS_AS(schema.number("none"), std::logic_error);
+}
+
 TEST_CASE("mistakes of the programmer are caught when a key is added") {
   ConfigSchema schema;
   int value = 1;

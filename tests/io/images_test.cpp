@@ -122,6 +122,19 @@ TEST_CASE("a camera is read from JSON") {
   CHECK((camera.world_to_camera * Eigen::Vector3d(1, 0, 0) - Eigen::Vector3d(1, 3, 3)).norm() < 1e-12);
 }
 
+TEST_CASE("a camera that was written is read as it was") {
+  const TemporaryFolder folder;
+  Camera camera{{.width = 31, .height = 17, .fx = 20.1, .fy = 1.0 / 3, .cx = 15, .cy = -2e-7}};
+  camera.world_to_camera = Eigen::AngleAxisd(0.3, Eigen::Vector3d(1, -2, 3).normalized()) *
+                           Eigen::Translation3d(0.1, 1.0 / 7, -3e-9);
+  write_camera(folder / "camera.json", camera);
+  const Camera same = read_camera(folder / "camera.json");
+  CHECK(same.intrinsics.width == 31);
+  CHECK(same.intrinsics.fy == camera.intrinsics.fy);
+  CHECK(same.intrinsics.cy == camera.intrinsics.cy);
+  CHECK(same.world_to_camera.isApprox(camera.world_to_camera, 1e-14));
+}
+
 TEST_CASE("each wrong key of a camera is named") {
   const TemporaryFolder folder;
   const auto error = [&](const std::string& from, const std::string& to) {

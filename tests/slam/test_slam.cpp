@@ -73,6 +73,23 @@ TEST_CASE("SLAM follows the synthetic office, and the same run gives the same bi
   CHECK(first.map.sh == second.map.sh);
 }
 
+TEST_CASE("settings that are changed count from the next frame on") {
+  const SyntheticDataset dataset = office(5);
+  FrameStream stream(dataset, {});
+  SlamSettings settings = quick();
+  Slam slam(settings, stream.intrinsics(), options());
+  slam.feed(*stream.next());
+  CHECK(slam.window() == std::vector{0});
+  slam.feed(*stream.next());
+  settings.keyframes.interval = 2;
+  settings.mapping_iterations = 4;
+  slam.change(settings);
+  const FrameReport third = slam.feed(*stream.next());
+  CHECK(third.keyframe);  // not after two more frames
+  CHECK(third.mapping_iterations == 4);
+  CHECK(slam.window() == std::vector{0, 1});
+}
+
 TEST_CASE("the keyframes of the window judge the map's Gaussians, unless told not to") {
   SlamSettings settings = quick();
   settings.first_iterations = settings.mapping_iterations = 2;

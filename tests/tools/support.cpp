@@ -18,7 +18,8 @@ namespace {
 
 std::vector<std::string> with_device(std::vector<std::string> arguments) {
   const char* device = std::getenv("SUREFIELD_DEVICE");
-  const std::set<std::string> users = {"run", "render", "eval", "report", "mesh", "synth", "bench", "basin"};
+  const std::set<std::string> users = {"run",   "render", "eval",  "report", "mesh",
+                                       "synth", "bench",  "basin", "view"};
   const bool needs_one = !arguments.empty() && users.contains(arguments[0]);
   const bool has_one = std::find(arguments.begin(), arguments.end(), "--device") != arguments.end();
   if (device && needs_one && !has_one) arguments.insert(arguments.end(), {"--device", device});

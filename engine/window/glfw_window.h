@@ -1,0 +1,67 @@
+#pragma once
+
+#define GLFW_INCLUDE_VULKAN
+#include <GLFW/glfw3.h>
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+namespace surefield {
+
+/// What the user did since it was asked last.
+struct UserInput {
+  struct Press {
+    int key = 0;  ///< GLFW_KEY_...
+    int mods = 0;
+  };
+  std::vector<Press> presses;                           ///< keys pressed or repeated
+  Eigen::Vector2d drag_left = Eigen::Vector2d::Zero();  ///< pixels that the mouse moved with that button down
+  Eigen::Vector2d drag_right = Eigen::Vector2d::Zero();  ///< or the middle one
+  double scroll = 0;
+  bool any = false;  ///< whether anything happened at all, be it that the mouse moved
+};
+
+/// A window of the operating system, without anything in it. Only on the main thread; one at a time.
+class GlfwWindow {
+ public:
+  /// Throws InputError where no window can be shown.
+  explicit GlfwWindow(const std::string& title);
+  ~GlfwWindow();
+  GlfwWindow(const GlfwWindow&) = delete;
+  GlfwWindow& operator=(const GlfwWindow&) = delete;
+
+  /// The extensions that an instance for it must have.
+  std::vector<std::string> instance_extensions() const;
+  /// A surface for it; the caller destroys it.
+  VkSurfaceKHR create_surface(VkInstance instance) const;
+
+  /// Waits for events, `seconds` at most, and returns what they were. Drags and scrolls over what belongs to
+  /// the user interface (`ui_has_mouse`) are left out.
+  UserInput wait(double seconds, bool ui_has_mouse);
+  bool is_down(int key) const { return glfwGetKey(window_, key) == GLFW_PRESS; }
+
+  /// Its size in pixels; 0 x 0 while minimised.
+  Eigen::Vector2i pixels() const;
+  /// How many times larger than usual text should be.
+  float scale() const;
+  bool should_close() const { return glfwWindowShouldClose(window_); }
+  void close() { glfwSetWindowShouldClose(window_, GLFW_TRUE); }
+  GLFWwindow* handle() const { return window_; }
+
+ private:
+  void listen();
+  static GlfwWindow& of(GLFWwindow* window);
+
+  GLFWwindow* window_ = nullptr;
+  UserInput input_;
+  Eigen::Vector2d cursor_ = Eigen::Vector2d::Zero();
+  bool left_ = false;
+  bool right_ = false;
+  bool ui_has_mouse_ = false;
+};
+
+/// Why GLFW can show no window here; empty where it can.
+std::string glfw_problem();
+
+}  // namespace surefield

@@ -1,0 +1,25 @@
+#pragma once
+
+#include "engine/io/config.h"
+#include "engine/window/viewer_state.h"
+
+namespace surefield {
+
+/// What the panel shows beside what the user has chosen.
+struct PanelContent {
+  std::string status;   ///< one line: what the run does
+  std::string message;  ///< one line: what was done last
+  uint32_t gaussians = 0;
+  bool live = false;        ///< a run that goes on
+  bool has_sensor = false;  ///< there are images of the frame shown
+  int positions = 0;        ///< of a recorded trajectory
+  float scale = 1;          ///< of text
+  const std::vector<FrameNumbers>* numbers = nullptr;
+};
+
+/// Draws the panel. Changes `state` and `settings`; returns what else the user asks for, and adds to
+/// `changed` the places of the settings that were changed.
+ViewerRequests draw_panel(const PanelContent& content, ViewerState& state,
+                          std::vector<NumberSetting>& settings, std::vector<std::size_t>& changed);
+
+}  // namespace surefield
