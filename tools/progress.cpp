@@ -14,11 +14,11 @@ namespace {
 
 constexpr const char* kClearLine = "\r\x1b[K";
 
+}  // namespace
+
 double seconds_since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
-
-}  // namespace
 
 Progress::Progress(int frames, bool quiet)
     : frames_(std::max(1, frames)),

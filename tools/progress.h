@@ -7,6 +7,9 @@
 
 namespace surefield {
 
+/// Seconds that have passed since `start`.
+double seconds_since(std::chrono::steady_clock::time_point start);
+
 /// Shows on stderr how far a run is: a bar where that is a terminal, else a line for every tenth of the
 /// frames.
 class Progress {

@@ -29,10 +29,6 @@ using Clock = std::chrono::steady_clock;
 
 constexpr std::size_t kMostCompared = 60;  // frames whose images are compared; surefield eval --run takes all
 
-double seconds_since(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
-
 /// The folder of the results with its log.
 class Results {
  public:
