@@ -162,6 +162,7 @@ class Filming {
     for (ViewMode mode : modes_)
       films_.push_back(
           std::make_unique<FilmWriter>(film_of(options.out, mode, modes_.size() > 1), options.rate));
+    if (journey.run) painter_.set_depth_model(settings_of(journey.run->run).depth_model);
     painter_.assign(journey.map);
   }
 

@@ -71,10 +71,14 @@ RunFolder read_run(const std::filesystem::path& folder) {
   return run;
 }
 
-void assign_map(SplatEngine& engine, const RunFolder& run) {
+SlamSettings settings_of(const RunFolder& run) {
   SlamSettings settings;
   load_settings(settings, {.config = (run.path / "config.yaml").string()}, "");
-  engine.set_depth_model(settings.depth_model);
+  return settings;
+}
+
+void assign_map(SplatEngine& engine, const RunFolder& run) {
+  engine.set_depth_model(settings_of(run).depth_model);
   engine.assign(read_map(run.map_file()).cloud);
 }
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "engine/io/dataset.h"
+#include "engine/slam/settings.h"
 #include "engine/splat/engine.h"
 #include "tools/map_quality.h"
 
@@ -33,6 +34,9 @@ struct RunFolder {
 /// Reads a folder of results. Throws InputError naming the file that is missing, damaged or of another
 /// version.
 RunFolder read_run(const std::filesystem::path& folder);
+
+/// The settings that a run had. Throws InputError.
+SlamSettings settings_of(const RunFolder& run);
 
 /// Puts the map of a run into an engine, with the depth of a Gaussian over its footprint that the run had.
 /// Throws InputError.

@@ -10,7 +10,6 @@
 #include "engine/window/viewer.h"
 #include "tools/command.h"
 #include "tools/interrupt.h"
-#include "tools/run_configuration.h"
 #include "tools/run_scene.h"
 
 namespace surefield {
@@ -45,8 +44,7 @@ std::vector<FrameNumbers> numbers_of(const RunFolder& run) {
 }
 
 void add_run_to(ViewerInput& input, const std::shared_ptr<const RunScene>& of) {
-  SlamSettings settings;
-  load_settings(settings, {.config = (of->run.path / "config.yaml").string()}, "");
+  const SlamSettings settings = settings_of(of->run);
   input.depth_model = settings.depth_model;
   input.depth_far = settings.depth_max;
   input.scene = of->scene;

@@ -154,7 +154,7 @@ void SlamSettings::bind(ConfigSchema& schema) {
   schema.add("depth_model", &depth_model,
              Choices<DepthModel>{{"centre", DepthModel::Centre}, {"plane", DepthModel::Plane}},
              "depth of a Gaussian over its footprint: that of its centre, or that of a plane through it, "
-             "which surefield render and view always take");
+             "which surefield render and view take for a map without its run");
   bind_tracking(schema, tracking);
   bind_mapping(schema, mapping);
   bind_keyframes(schema, keyframes);

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/viewer/view_path.h"
+
 namespace surefield {
 
 namespace {
@@ -14,17 +16,6 @@ constexpr double kSteepest = 1.45;  // radians, the steepest look up or down
 constexpr double kClosest = 0.05;   // metres, the closest that the point that is looked at comes
 
 const Eigen::Vector3d kDown = Eigen::Vector3d::UnitY();
-
-Pose looking(const Eigen::Vector3d& from, const Eigen::Vector3d& at) {
-  const Eigen::Vector3d forward = (at - from).normalized();
-  Eigen::Vector3d right = kDown.cross(forward);
-  if (right.norm() < 1e-6) right = Eigen::Vector3d::UnitX();
-  right.normalize();
-  Pose pose = Pose::Identity();
-  pose.linear() << right, forward.cross(right), forward;
-  pose.translation() = from;
-  return pose;
-}
 
 /// Turned to the right around the vertical, and down around its own x.
 Eigen::Matrix3d turned(const Eigen::Matrix3d& axes, double right, double down) {
@@ -40,7 +31,7 @@ void ViewCamera::follow(const Pose& camera_to_world) {
   const Eigen::Vector3d forward = camera_to_world.linear().col(2);
   const Eigen::Vector3d place = camera_to_world.translation();
   const Eigen::Vector3d at = place + kAhead * forward;
-  pose_ = looking(place - kBehind * forward - kAbove * kDown, at);
+  pose_ = look_at(place - kBehind * forward - kAbove * kDown, at, -kDown);
   distance_ = (at - pose_.translation()).norm();
 }
 
@@ -52,7 +43,7 @@ void ViewCamera::look_through(const Camera& camera) {
 void ViewCamera::overlook(const Eigen::Vector3d& middle, double size) {
   distance_ = std::max(1.2 * size, kClosest);
   const Eigen::Vector3d back = Eigen::Vector3d(0.3, -0.5, -0.8).normalized();
-  pose_ = looking(middle + distance_ * back, middle);
+  pose_ = look_at(middle + distance_ * back, middle, -kDown);
 }
 
 void ViewCamera::orbit(double right, double down) {
@@ -81,16 +72,7 @@ void ViewCamera::approach(double factor) {
 }
 
 Camera ViewCamera::camera(int width, int height) const {
-  const double scale =
-      std::min(static_cast<double>(width) / lens_.width, static_cast<double>(height) / lens_.height);
-  // The middles of the images coincide.
-  const Intrinsics k{.width = width,
-                     .height = height,
-                     .fx = scale * lens_.fx,
-                     .fy = scale * lens_.fy,
-                     .cx = scale * (lens_.cx - (lens_.width - 1) / 2.0) + (width - 1) / 2.0,
-                     .cy = scale * (lens_.cy - (lens_.height - 1) / 2.0) + (height - 1) / 2.0};
-  return {k, pose_.inverse()};
+  return {fit_to(lens_, width, height), pose_.inverse()};
 }
 
 }  // namespace surefield
