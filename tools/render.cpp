@@ -123,7 +123,21 @@ const char* missing_for(ViewMode mode, const RenderOptions& options) {
   return options.sensor_colour.empty() ? "--sensor-colour" : nullptr;
 }
 
-void write_pictures(const RenderOptions& options, const Camera& camera, const GaussianCloud& cloud,
+/// The map to render, and the depth of its Gaussians over their footprints.
+struct ChosenMap {
+  GaussianCloud cloud;
+  DepthModel depth_model = DepthModel::Plane;
+};
+
+/// The map that the user names, else that of the run; a run also tells the depth model.
+ChosenMap choose_map(const RenderOptions& options) {
+  if (options.run.empty()) return {load_finite_map(options.map)};
+  const RunFolder run = read_run(options.run);
+  const std::string file = options.map.empty() ? run.map_file().string() : options.map;
+  return {load_finite_map(file), settings_of(run).depth_model};
+}
+
+void write_pictures(const RenderOptions& options, const Camera& camera, const ChosenMap& map,
                     std::vector<float> sensor_depth) {
   const std::vector<ViewMode> modes =
       chosen_modes(options, [&](ViewMode mode) { return missing_for(mode, options); });
@@ -133,7 +147,8 @@ void write_pictures(const RenderOptions& options, const Camera& camera, const Ga
   sensor_depth.resize(static_cast<std::size_t>(k.width) * k.height, 0.0f);
   gpu::Device device({.selector = options.engine.device, .validate = options.engine.validate});
   ViewPainter painter(device);
-  painter.assign(cloud);
+  painter.set_depth_model(map.depth_model);
+  painter.assign(map.cloud);
   painter.set_sensor({.width = k.width,
                       .height = k.height,
                       .colour = colour.data,
@@ -149,11 +164,6 @@ void write_pictures(const RenderOptions& options, const Camera& camera, const Ga
   }
 }
 
-/// The file of the map, which may be that of a run.
-std::string file_of_map(const RenderOptions& options) {
-  return options.map.empty() ? read_run(options.run).map_file().string() : options.map;
-}
-
 int render(const RenderOptions& options) {
   if (options.map.empty() && options.run.empty())
     throw InputError("give the map with --map, or a run that has left one with --run");
@@ -163,20 +173,21 @@ int render(const RenderOptions& options) {
   const Camera camera = read_camera(options.camera);
   std::vector<float> sensor_depth;
   if (!options.sensor_depth.empty()) sensor_depth = read_sensor_depth(options, camera.intrinsics);
-  const GaussianCloud cloud = load_finite_map(file_of_map(options));
+  const ChosenMap map = choose_map(options);
   std::error_code error;
   std::filesystem::create_directories(options.out, error);
   if (error) throw InputError(options.out, "cannot be created: " + error.message());
   if (!options.modes.empty()) {
-    write_pictures(options, camera, cloud, std::move(sensor_depth));
+    write_pictures(options, camera, map, std::move(sensor_depth));
     return kSuccess;
   }
   SplatEngine engine(options.engine);
-  engine.assign(cloud);
+  engine.set_depth_model(map.depth_model);
+  engine.assign(map.cloud);
   RenderImages images = sensor_depth.empty() ? engine.render(camera)
                                              : engine.render(camera, std::span<const float>(sensor_depth));
   write_images(options.out, images);
-  engine.assign(coloured_by_uncertainty(cloud));
+  engine.assign(coloured_by_uncertainty(map.cloud));
   write_gaussian_uncertainty(options.out, engine.render(camera));
   return kSuccess;
 }

@@ -107,6 +107,30 @@ TEST_CASE("render --mode writes a picture of each mode that was asked for, and n
   CHECK(contains(without.err, "--mode error needs --sensor-colour"));
 }
 
+TEST_CASE("render of a run takes the depth model of the run") {
+  const TemporaryFolder folder;
+  GaussianCloud disc = two_gaussians();
+  disc.log_scales[0] = {std::log(0.4f), std::log(0.4f), std::log(0.01f)};
+  disc.rotations[0] = {std::cos(0.4f), 0, std::sin(0.4f), 0};  // turned, so that its depth changes along u
+  const auto camera = folder.write("camera.json", kCamera);
+  std::filesystem::create_directories(folder.path() / "run");
+  write_ply(folder / "run/map.ply", disc);
+  folder.write("run/metrics.json", R"({"schema": "surefield-metrics", "version": 1, "per_frame": []})");
+  folder.write("run/trajectory.txt", "");
+  folder.write("run/keyframes.txt", "");
+  const auto depth_right_of_centre = [&](const char* model) {
+    folder.write("run/config.yaml", std::string("depth_model: ") + model + "\n");
+    const Outcome outcome = surefield_command(
+        {"render", "--run", folder / "run", "--camera", camera, "--out", folder / model}, folder.path());
+    CHECK_MESSAGE(outcome.code == 0, outcome.err);
+    const cv::Mat image = read_tiff(folder.path() / model / "depth_normalised.tiff");
+    REQUIRE(image.size() == cv::Size(64, 48));
+    return static_cast<double>(image.at<float>(24, 36));
+  };
+  CHECK(depth_right_of_centre("centre") == doctest::Approx(2));
+  CHECK(std::abs(depth_right_of_centre("plane") - 2) > 0.1);
+}
+
 TEST_CASE("render refuses input that does not fit") {
   const TemporaryFolder folder;
   write_ply(folder / "map.ply", two_gaussians());
