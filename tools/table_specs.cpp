@@ -76,7 +76,7 @@ TableSpec ablations() {
            {"newborn-spheres", "newborn spheres"},
            {"no-references", "tracking without images of keyframes"},
            {"refined-keyframes", "poses of keyframes refined with the map"},
-           {"depth-normalised", "normalised depth in mapping"},
+           {"depth-alpha", "depth in mapping not divided by the opacity"},
            {"tracking-adam", "tracking by Adam"},
            {"covisibility-vlad", "covisibility by VLAD"}},
           true,

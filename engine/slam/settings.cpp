@@ -116,8 +116,10 @@ void bind_spawn(ConfigSchema& schema, SpawnSettings& spawn) {
 void bind_keyframes(ConfigSchema& schema, KeyframeSettings& keyframes) {
   schema.add("keyframes.interval", &keyframes.interval, Range{1, 100000},
              "every so many frames is a keyframe");
-  schema.add("keyframes.valid_below", &keyframes.valid_below, kFraction,
-             "also when a smaller fraction of the sensor's depth agrees with the map");
+  schema.add(
+      "keyframes.valid_below", &keyframes.valid_below, kFraction,
+      "also when the map explains less of the sensor's depth than this times what it explained just after "
+      "the last keyframe");
   schema.add("keyframes.window", &keyframes.window, Range{1, 1000},
              "k, keyframes optimised together: the current, the most recent, and the k - 2 that see most "
              "of the same");

@@ -12,7 +12,8 @@ enum class CovisibilityKind { Overlap, Vlad, NetVlad };
 /// When a frame becomes a keyframe and which keyframes are optimised together (paper section 3.4).
 struct KeyframeSettings {
   int interval = 15;         ///< every so many frames
-  double valid_below = 0.7;  ///< also when less than this fraction of the sensor's depth agrees with the map
+  double valid_below = 0.9;  ///< also when the map explains less of the sensor's depth than this times what
+                             ///< it explained just after the last keyframe
   int window = 4;            ///< k: current, most recent, and the k - 2 that see most of the same
   int past_keyframes = 2;    ///< random older keyframes among the steps, against forgetting
   int near = 32;             ///< the window and the older ones are among so many nearest to the current

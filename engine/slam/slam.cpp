@@ -54,6 +54,7 @@ struct Slam::Implementation {
   std::vector<int> reference_keyframes;                 ///< whose images frames are aligned to beside the map
   std::optional<std::pair<Frame, FrameHandle>> newest;  ///< the last frame fed, unless it is a keyframe
   int last_keyframe_frame = 0;                          ///< position among the frames fed
+  double valid_after_keyframe = 1;                      ///< valid_fraction of the frame just after it
 
   Implementation(const SlamSettings& s, const Intrinsics& k, const EngineOptions& options)
       : settings(s),
@@ -146,7 +147,7 @@ bool Slam::Implementation::wants_keyframe(const FrameReport& report) const {
   if (report.lost) return false;
   const int frame = static_cast<int>(frames.size()) - 1;
   if (frame % settings.keyframes.interval == 0) return true;
-  return report.valid_fraction < settings.keyframes.valid_below &&
+  return report.valid_fraction < settings.keyframes.valid_below * valid_after_keyframe &&
          frame - last_keyframe_frame >= kKeyframeRest;
 }
 
@@ -227,6 +228,8 @@ void Slam::Implementation::track(FrameHandle handle, FrameReport& report) {
   report.tracking_loss = result.loss;
   report.valid_fraction = result.valid_fraction;
   if (!report.lost) {
+    if (static_cast<int>(frames.size()) == last_keyframe_frame + 1)
+      valid_after_keyframe = result.valid_fraction;
     recent_losses.push_back(result.loss);
     if (recent_losses.size() > kRecentLosses) recent_losses.pop_front();
   }

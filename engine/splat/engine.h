@@ -53,7 +53,7 @@ struct TrackingSettings {
   double rate_translation = 0.00215;  ///< Adam's step, metres
   double weight_colour = 1.0;         ///< lambda_1
   double weight_depth = 0.6;          ///< lambda_2
-  double minimum_opacity = 0.99;      ///< pixels take part where O is above
+  double minimum_opacity = 0.5;       ///< pixels take part where O is above
   double outlier_factor = 10;         ///< and where the residual is below this many times the median
   double uncertainty_above = 0.025;   ///< tau, m^2: more uncertain Gaussians take no part; 0: all do
   DepthKind depth = DepthKind::Normalised;
@@ -82,11 +82,11 @@ struct MappingSettings {
   double weight_colour = 1.0;
   double weight_ssim = 0.1;
   double weight_depth = 0.8;
-  double weight_align = 0.5;
+  double weight_align = 0.1;
   double weight_isotropy = 0.1;
   double isotropy_epsilon = 5;  ///< L_iso begins where the largest scale is so many times the smallest
   double weight_variance = 0.5;
-  DepthKind depth = DepthKind::Alpha;
+  DepthKind depth = DepthKind::Normalised;
   double uncertainty_above = 0.025;  ///< tau, m^2: Gaussians above lose their opacity; 0: none is judged
   double uncertain_opacity = 0.01;   ///< what is left of it
   double rate_mean = 3e-4;           ///< times extent, metres
