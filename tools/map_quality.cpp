@@ -6,6 +6,7 @@
 
 #include "engine/eval/image_metrics.h"
 #include "engine/io/frame_stream.h"
+#include "engine/slam/exposure.h"
 #include "tools/interrupt.h"
 
 namespace surefield {
@@ -17,21 +18,37 @@ using Json = nlohmann::ordered_json;
 /// The scores of one frame.
 struct FrameScores {
   double psnr = 0;
+  double psnr_same_exposure = 0;
   double ssim = 0;
   std::optional<double> depth_l1;
   std::optional<double> lpips;
 };
 
+/// What a screen would show: displays clamp.
+cv::Mat clamped(const cv::Mat& colour) {
+  return cv::max(0.0f, cv::min(1.0f, colour));
+}
+
+/// The render with the frame's exposure instead of the map's; as it is where that cannot be told.
+cv::Mat at_exposure_of(const Frame& frame, const RenderImages& images, const cv::Mat& rendered,
+                       double depth_max) {
+  const auto gains = fit_gains(frame, images, depth_max);
+  if (!gains) return rendered;
+  cv::Mat result;
+  cv::divide(rendered, cv::Scalar((*gains)[0], (*gains)[1], (*gains)[2]), result);
+  return result;
+}
+
 FrameScores score(const QualityInput& input, const Camera& camera, const Frame& frame) {
   RenderImages images = input.render(camera);
-  cv::Mat rendered(images.height, images.width, CV_32FC3, images.colour.data());
-  // What a screen would show: displays clamp.
-  rendered = cv::max(0.0f, cv::min(1.0f, rendered));
+  const cv::Mat colour(images.height, images.width, CV_32FC3, images.colour.data());
+  const cv::Mat rendered = clamped(colour);
   const cv::Mat depth(images.height, images.width, CV_32FC1, images.depth_normalised.data());
   cv::Mat truth;
   frame.colour.convertTo(truth, CV_32FC3, 1.0 / 255);
-  FrameScores scores{psnr(rendered, truth), ssim(rendered, truth),
-                     depth_l1(depth, frame.depth, input.depth_max), std::nullopt};
+  FrameScores scores{psnr(rendered, truth),
+                     psnr(clamped(at_exposure_of(frame, images, colour, input.depth_max)), truth),
+                     ssim(rendered, truth), depth_l1(depth, frame.depth, input.depth_max), std::nullopt};
   if (input.lpips) scores.lpips = input.lpips->distance(rendered, truth);
   return scores;
 }
@@ -42,6 +59,7 @@ class ScoreSum {
   void add(const FrameScores& scores) {
     ++sum_.frames;
     sum_.psnr += scores.psnr;
+    sum_.psnr_same_exposure += scores.psnr_same_exposure;
     sum_.ssim += scores.ssim;
     add(sum_.lpips, scores.lpips);
     add(sum_.depth_l1, scores.depth_l1);
@@ -52,6 +70,7 @@ class ScoreSum {
     ImageScores mean = sum_;
     if (sum_.frames == 0) return mean;
     mean.psnr /= sum_.frames;
+    mean.psnr_same_exposure /= sum_.frames;
     mean.ssim /= sum_.frames;
     if (mean.lpips) *mean.lpips /= sum_.frames;
     if (mean.depth_l1) *mean.depth_l1 /= depth_frames_;
@@ -71,6 +90,7 @@ nlohmann::ordered_json scores_json(const ImageScores& scores) {
   const auto number = [&](double value) { return scores.frames > 0 ? Json(value) : Json(nullptr); };
   Json json = {{"frames", scores.frames},
                {"psnr_db", number(scores.psnr)},
+               {"psnr_same_exposure_db", number(scores.psnr_same_exposure)},
                {"ssim", number(scores.ssim)},
                {"depth_l1_m", scores.depth_l1 ? Json(*scores.depth_l1) : Json(nullptr)}};
   if (scores.lpips) json["lpips"] = *scores.lpips;
@@ -78,7 +98,8 @@ nlohmann::ordered_json scores_json(const ImageScores& scores) {
 }
 
 std::string scores_line(const char* title, const ImageScores& scores) {
-  std::string text = fmt::format("{:<16} PSNR {:.2f} dB, SSIM {:.4f}", title, scores.psnr, scores.ssim);
+  std::string text = fmt::format("{:<16} PSNR {:.2f} dB (at each frame's exposure {:.2f}), SSIM {:.4f}",
+                                 title, scores.psnr, scores.psnr_same_exposure, scores.ssim);
   if (scores.depth_l1) text += fmt::format(", depth L1 {:.2f} cm", 100 * *scores.depth_l1);
   if (scores.lpips) text += fmt::format(", LPIPS {:.4f}", *scores.lpips);
   return text + fmt::format("   ({} frames)\n", scores.frames);

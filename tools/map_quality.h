@@ -16,6 +16,7 @@ namespace surefield {
 struct ImageScores {
   int frames = 0;
   double psnr = 0;                 ///< dB
+  double psnr_same_exposure = 0;   ///< dB, of renders that were brought to each frame's exposure
   double ssim = 0;                 ///< up to 1
   std::optional<double> depth_l1;  ///< metres; over the frames with valid depth, if any
   std::optional<double> lpips;     ///< where a network was given

@@ -17,6 +17,7 @@ struct Keyframe {
   Camera camera;
   std::vector<Eigen::Vector3f> points;               ///< a coarse grid of its depth, camera frame, metres
   Eigen::Vector3d middle = Eigen::Vector3d::Zero();  ///< of those points
+  Eigen::Vector3f gains = Eigen::Vector3f::Ones();   ///< times these its colours are the map's (exposure.h)
 };
 
 /// A keyframe that sees `points`.

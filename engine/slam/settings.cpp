@@ -120,6 +120,8 @@ void bind_keyframes(ConfigSchema& schema, KeyframeSettings& keyframes) {
       "keyframes.valid_below", &keyframes.valid_below, kFraction,
       "also when the map explains less of the sensor's depth than this times what it explained just after "
       "the last keyframe");
+  schema.add("keyframes.exposure", &keyframes.exposure,
+             "keyframes' colours are brought to the exposure of the map by a gain for each channel");
   schema.add("keyframes.window", &keyframes.window, Range{1, 1000},
              "k, keyframes optimised together: the current, the most recent, and the k - 2 that see most "
              "of the same");

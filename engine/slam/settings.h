@@ -14,6 +14,7 @@ struct KeyframeSettings {
   int interval = 15;         ///< every so many frames
   double valid_below = 0.9;  ///< also when the map explains less of the sensor's depth than this times what
                              ///< it explained just after the last keyframe
+  bool exposure = false;     ///< bring their colours to the exposure of the map (exposure.h)
   int window = 4;            ///< k: current, most recent, and the k - 2 that see most of the same
   int past_keyframes = 2;    ///< random older keyframes among the steps, against forgetting
   int near = 32;             ///< the window and the older ones are among so many nearest to the current

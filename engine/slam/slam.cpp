@@ -10,6 +10,7 @@
 
 #include "engine/slam/active_region.h"
 #include "engine/slam/covisibility.h"
+#include "engine/slam/exposure.h"
 #include "engine/slam/keyframes.h"
 #include "engine/slam/spawn.h"
 
@@ -246,7 +247,11 @@ void Slam::Implementation::add_keyframe(const Frame& frame, FrameHandle handle, 
   frames.back() = {frame.timestamp, static_cast<int>(keyframes.size()) - 1, Pose::Identity()};
   last_keyframe_frame = static_cast<int>(frames.size()) - 1;
   const RenderImages rendered = engine.render(camera);
-  const GaussianCloud births = spawn_gaussians(frame, camera, &rendered, settings.spawn, settings.depth_max);
+  Eigen::Vector3f& gains = keyframes.back().gains;
+  gains = keyframes[keyframes.size() - 2].gains;
+  if (settings.keyframes.exposure) gains = fit_gains(frame, rendered, settings.depth_max).value_or(gains);
+  const GaussianCloud births =
+      spawn_gaussians(frame, camera, &rendered, settings.spawn, settings.depth_max, gains);
   region.settle(keyframes, covisibility.similar(), static_cast<uint32_t>(births.size()));
   engine.insert(births);
 }
@@ -285,7 +290,8 @@ void Slam::Implementation::optimise(const std::vector<int>& order, const std::ve
     const auto [entry, is_new] = view_of_keyframe.try_emplace(keyframe, static_cast<int>(views.size()));
     if (is_new)
       views.push_back({keyframes[keyframe].frame, keyframes[keyframe].camera,
-                       std::find(refined.begin(), refined.end(), keyframe) != refined.end()});
+                       std::find(refined.begin(), refined.end(), keyframe) != refined.end(),
+                       keyframes[keyframe].gains});
     steps.push_back(entry->second);
   }
   const MappingResult result = engine.optimise(views, steps, settings.mapping, extent);

@@ -72,7 +72,7 @@ double scene_extent(const Frame& frame, double depth_max) {
 }
 
 GaussianCloud spawn_gaussians(const Frame& frame, const Camera& camera, const RenderImages* rendered,
-                              const SpawnSettings& settings, double depth_max) {
+                              const SpawnSettings& settings, double depth_max, const Eigen::Vector3f& gains) {
   const Intrinsics& k = camera.intrinsics;
   const Pose camera_to_world = camera.world_to_camera.inverse();
   const double margin =
@@ -98,7 +98,8 @@ GaussianCloud spawn_gaussians(const Frame& frame, const Camera& camera, const Re
       cloud.opacity_logits.push_back(logit);
       cloud.uncertainty.push_back(0.0f);
       const cv::Vec3b& rgb = frame.colour.at<cv::Vec3b>(v, u);
-      for (int c = 0; c < 3; ++c) cloud.sh.push_back((static_cast<float>(rgb[c]) / 255 - 0.5f) / kShBase);
+      for (int c = 0; c < 3; ++c)
+        cloud.sh.push_back((gains[c] * static_cast<float>(rgb[c]) / 255 - 0.5f) / kShBase);
     }
   return cloud;
 }

@@ -12,8 +12,10 @@ double scene_extent(const Frame& frame, double depth_max);
 /// New Gaussians for what `frame` sees and the map does not show (paper section 3.3): one per pixel with
 /// valid depth whose rendered opacity is low, or that lies well in front of the rendered surface. `rendered`
 /// is null for the first frame: every valid pixel spawns. Each is a disc on the surface that the depth around
-/// shows, of about a pixel's footprint; a sphere where that shows none. It has the pixel's colour.
+/// shows, of about a pixel's footprint; a sphere where that shows none. It has the pixel's colour
+/// times `gains` (exposure.h).
 GaussianCloud spawn_gaussians(const Frame& frame, const Camera& camera, const RenderImages* rendered,
-                              const SpawnSettings& settings, double depth_max);
+                              const SpawnSettings& settings, double depth_max,
+                              const Eigen::Vector3f& gains = Eigen::Vector3f::Ones());
 
 }  // namespace surefield

@@ -169,7 +169,7 @@ MappingResult SplatEngine::optimise(std::span<MappingView> views, std::span<cons
   const auto begin = std::chrono::steady_clock::now();
   Implementation& i = *implementation_;
   std::vector<CameraVariable> cameras;
-  for (const MappingView& view : views) cameras.emplace_back(i.device, view.camera);
+  for (const MappingView& view : views) cameras.emplace_back(i.device, view.camera, view.gains);
   i.run_steps(views, cameras, order, settings, extent);
   for (std::size_t v = 0; v < views.size(); ++v)
     if (views[v].refine_pose) views[v].camera.world_to_camera = pose_of(cameras[v].camera.download(1)[0]);

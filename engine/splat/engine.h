@@ -104,6 +104,7 @@ struct MappingView {
   FrameHandle frame = 0;
   Camera camera;  ///< the pose is refined in place where `refine_pose` says so
   bool refine_pose = false;
+  Eigen::Vector3f gains = Eigen::Vector3f::Ones();  ///< times its colours are those of the map
 };
 
 /// What a mapping call did.

@@ -10,8 +10,8 @@ uint32_t strips(uint32_t length) {
 
 }  // namespace
 
-CameraVariable::CameraVariable(gpu::Device& device, const Camera& initial)
-    : camera(device, "keyframe camera"), adam(device, "keyframe Adam") {
+CameraVariable::CameraVariable(gpu::Device& device, const Camera& initial, const Eigen::Vector3f& gains_)
+    : camera(device, "keyframe camera"), adam(device, "keyframe Adam"), gains(to_vec3(gains_)) {
   const glsl::CameraState state = to_device(initial);
   camera.upload(std::span(&state, 1));
   adam.upload(std::vector<glsl::PoseAdam>{{}});
@@ -43,7 +43,8 @@ gpu::Pass<passes::update_colours>& Mapper::colour_update(int sh_degree) {
   return *pass;
 }
 
-void Mapper::record_ssim(gpu::Recorder& recorder, const Rasteriser& rasteriser, const SensorFrame& frame) {
+void Mapper::record_ssim(gpu::Recorder& recorder, const Rasteriser& rasteriser, const SensorFrame& frame,
+                         const glsl::vec3& gains) {
   const auto [width, height] = frame.size;
   const uint32_t row_strips = strips(width) * height, column_strips = strips(height) * width;
   recorder.reserve(moments_, frame.size.pixels());
@@ -57,7 +58,7 @@ void Mapper::record_ssim(gpu::Recorder& recorder, const Rasteriser& rasteriser, 
                      .geometry = rasteriser.geometry,
                      .moments = moments_,
                      .median_count = median_count_},
-                    {.width = width, .height = height});
+                    {.width = width, .height = height, .gains = gains});
   recorder.dispatch(ssim_columns_, ssim_columns_.groups(column_strips),
                     {.moments = moments_, .slopes = slopes_, .ssim_partials = ssim_partials_},
                     {.width = width, .height = height});
@@ -66,10 +67,10 @@ void Mapper::record_ssim(gpu::Recorder& recorder, const Rasteriser& rasteriser, 
 }
 
 void Mapper::record_loss(gpu::Recorder& recorder, Rasteriser& rasteriser, const GaussianMap& map,
-                         const SensorFrame& frame, const gpu::Array<glsl::CameraState>& camera,
+                         const SensorFrame& frame, const CameraVariable& camera,
                          const MappingSettings& settings) {
-  rasteriser.record_forward(recorder, map, {frame.size, camera, frame.depth}, Outputs::All);
-  record_ssim(recorder, rasteriser, frame);
+  rasteriser.record_forward(recorder, map, {frame.size, camera.camera, frame.depth}, Outputs::All);
+  record_ssim(recorder, rasteriser, frame, camera.gains);
   const auto [width, height] = frame.size;
   const uint32_t column_strips = strips(height) * width;
   recorder.reserve(loss_partials_, column_strips);
@@ -92,7 +93,8 @@ void Mapper::record_loss(gpu::Recorder& recorder, Rasteriser& rasteriser, const 
                      .w_depth = static_cast<float>(settings.weight_depth),
                      .w_align = static_cast<float>(settings.weight_align),
                      .w_variance = static_cast<float>(settings.weight_variance),
-                     .background = to_vec3(rasteriser.background)});
+                     .background = to_vec3(rasteriser.background),
+                     .gains = camera.gains});
   recorder.dispatch(sum_losses_, 1, {.loss_partials = loss_partials_, .loss = loss},
                     {.count = column_strips});
 }
@@ -139,7 +141,7 @@ void Mapper::record_step(gpu::Recorder& recorder, Rasteriser& rasteriser, Gaussi
                          const SensorFrame& frame, CameraVariable& camera, bool refine_pose,
                          const MappingSettings& settings, double extent) {
   rasteriser.pose_gradient_kind = settings.pose_gradient;
-  record_loss(recorder, rasteriser, map, frame, camera.camera, settings);
+  record_loss(recorder, rasteriser, map, frame, camera, settings);
   rasteriser.record_backward(recorder, map, {frame.size, camera.camera, frame.depth},
                              {.weight = static_cast<float>(settings.weight_isotropy),
                               .epsilon = static_cast<float>(settings.isotropy_epsilon)});

@@ -13,12 +13,14 @@
 
 namespace surefield {
 
-/// A keyframe's camera on the device with the optimiser's state for its pose.
+/// A keyframe's camera on the device with the optimiser's state for its pose, and its exposure.
 struct CameraVariable {
   gpu::Array<glsl::CameraState> camera;
   gpu::Array<glsl::PoseAdam> adam;
+  glsl::vec3 gains;  ///< the sensor's colours times these are those of the map
 
-  CameraVariable(gpu::Device& device, const Camera& initial);
+  CameraVariable(gpu::Device& device, const Camera& initial,
+                 const Eigen::Vector3f& gains = Eigen::Vector3f::Ones());
 };
 
 /// Optimises the map, and poses beside it, with all six losses (paper eq. 14 to 18 and 21).
@@ -28,8 +30,7 @@ class Mapper {
 
   /// Records render, mapping loss and dL/d(images): the gradient lands in rasteriser.pixel_upstream.
   void record_loss(gpu::Recorder& recorder, Rasteriser& rasteriser, const GaussianMap& map,
-                   const SensorFrame& frame, const gpu::Array<glsl::CameraState>& camera,
-                   const MappingSettings& settings);
+                   const SensorFrame& frame, const CameraVariable& camera, const MappingSettings& settings);
 
   /// Records one step on one view: loss, backward, Adam on every visible Gaussian and, if asked, on the pose.
   void record_step(gpu::Recorder& recorder, Rasteriser& rasteriser, GaussianMap& map,
@@ -42,7 +43,8 @@ class Mapper {
   gpu::Array<glsl::LossSums> loss;  ///< sums of the last record_loss()
 
  private:
-  void record_ssim(gpu::Recorder& recorder, const Rasteriser& rasteriser, const SensorFrame& frame);
+  void record_ssim(gpu::Recorder& recorder, const Rasteriser& rasteriser, const SensorFrame& frame,
+                   const glsl::vec3& gains);
   void record_update(gpu::Recorder& recorder, const Rasteriser& rasteriser, GaussianMap& map,
                      const MappingSettings& settings, double extent);
   gpu::Pass<passes::update_colours>& colour_update(int sh_degree);

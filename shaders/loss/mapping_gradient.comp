@@ -37,7 +37,7 @@ void main() {
     const uint at = uint(first + o) * params.width + column;
     const vec4 image = colour_opacity[at];
     const vec4 geo = geometry[at];
-    const vec3 target = unpackUnorm4x8(sensor_colour[at]).rgb;
+    const vec3 target = params.gains * unpackUnorm4x8(sensor_colour[at]).rgb;
     const float sensor = sensor_depth[at];
     const float depth = NORMALISED_DEPTH == 0 ? geo.x : (image.a > 0 ? geo.x / image.a : 0.0);
 

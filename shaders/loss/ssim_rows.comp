@@ -18,7 +18,8 @@ void main() {
     const bool inside = column >= 0 && column < int(params.width);
     const uint at = row + uint(clamp(column, 0, int(params.width) - 1));
     const float mask = inside ? 1.0 : 0.0;
-    const vec3 x = mask * colour_opacity[at].rgb, y = mask * unpackUnorm4x8(sensor_colour[at]).rgb;
+    const vec3 x = mask * colour_opacity[at].rgb, 
+               y = mask * params.gains * unpackUnorm4x8(sensor_colour[at]).rgb;
     const vec3 squares = x * x + y * y, xy = x * y;
     [[unroll]] for (int o = 0; o < STRIP; ++o) {
       if (p < o || p > o + 2 * WINDOW_RADIUS) continue;  // decided when the loops are unrolled

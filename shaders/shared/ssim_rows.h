@@ -2,7 +2,7 @@
 #include "loss_types.h"
 
 #define PASS ssim_rows
-#define PASS_PARAMS(P) P(uint, width) P(uint, height)
+#define PASS_PARAMS(P) P(uint, width) P(uint, height) P(vec3, gains)
 #define PASS_BINDINGS(READ, WRITE, UPDATE) \
   READ(0, vec4, colour_opacity)            \
   READ(1, uint, sensor_colour)             \

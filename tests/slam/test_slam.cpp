@@ -1,6 +1,7 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <numeric>
 #include <stdexcept>
 
 #include "engine/eval/trajectory_metrics.h"
@@ -120,6 +121,28 @@ TEST_CASE("a run on a small budget of device memory keeps to it, and its map is 
   for (std::size_t i = 0; i < 9; ++i)
     CHECK(small.trajectory[i].camera_to_world.matrix() == again.trajectory[i].camera_to_world.matrix());
   CHECK(small.map.means == again.map.means);
+}
+
+TEST_CASE("the map keeps its exposure where the camera's changes, if it is told to") {
+  const SyntheticDataset dataset = office(4);
+  const auto brightness_of_last = [&](bool exposure, double gain) {
+    SlamSettings settings = quick();
+    settings.mapping_iterations = 40;
+    settings.keyframes.exposure = exposure;
+    settings.lost.loss_jump = 1e6;
+    Slam slam(settings, dataset.intrinsics(), options());
+    for (int i = 0; i < 4; ++i) {
+      Frame frame = *dataset.load(i).frame;
+      if (i == 3) frame.colour.convertTo(frame.colour, -1, gain);
+      slam.feed(frame);
+    }
+    CHECK(slam.reports()[3].keyframe);
+    const RenderImages images = slam.render({dataset.intrinsics(), slam.reports()[3].world_to_camera});
+    return std::accumulate(images.colour.begin(), images.colour.end(), 0.0);
+  };
+  const double steady = brightness_of_last(false, 1);
+  CHECK(brightness_of_last(true, 0.7) == doctest::Approx(steady).epsilon(0.02));
+  CHECK(brightness_of_last(false, 0.7) < 0.95 * steady);
 }
 
 TEST_CASE("a run whose windows are chosen by images follows the office") {

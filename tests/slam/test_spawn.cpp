@@ -43,6 +43,9 @@ TEST_CASE("the first frame spawns one Gaussian per valid pixel, where the pixel 
   CHECK(0.5 + 0.28209479177387814 * cloud.sh[0] == doctest::Approx(1));
   CHECK(0.5 + 0.28209479177387814 * cloud.sh[2] == doctest::Approx(0));
   CHECK(cloud.sh.size() == 135);
+  const GaussianCloud brighter = spawn_gaussians(frame, camera, nullptr, settings, 5, {0.5f, 1.5f, 1});
+  CHECK(0.5 + 0.28209479177387814 * brighter.sh[0] == doctest::Approx(0.5));
+  CHECK(0.5 + 0.28209479177387814 * brighter.sh[1] == doctest::Approx(1.5 * 128 / 255));
 }
 
 TEST_CASE("later frames spawn where the map is thin or lies far behind") {

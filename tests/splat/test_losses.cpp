@@ -78,17 +78,20 @@ TEST_CASE("the mapping loss and its gradient agree with the oracle") {
       map.assign(scene.cloud);
       const Observed o = observe(scene, rasteriser, map);
       const SensorFrame frame(device, view_of(o));
-      CameraVariable camera(device, scene.camera);
+      const Eigen::Vector3f gains(1.25f, 0.75f, 1.5f);
+      CameraVariable camera(device, scene.camera, gains);
+      std::vector<float> target = o.colour;
+      for (std::size_t i = 0; i < target.size(); ++i) target[i] *= gains[i % 3];
       MappingSettings settings;
       settings.depth = kind;
       gpu::Recorder recorder(device);
-      mapper.record_loss(recorder, rasteriser, map, frame, camera.camera, settings);
+      mapper.record_loss(recorder, rasteriser, map, frame, camera, settings);
       recorder.submit();
 
       // The oracle's loss of the device's own images: what is compared is the loss alone.
       const reference::Images images(o.rendered);
       const auto want = reference::mapping_loss(
-          images, {o.colour, o.scene.depth}, reference::Gaussians(scene.cloud),
+          images, {target, o.scene.depth}, reference::Gaussians(scene.cloud),
           std::vector<uint8_t>(scene.cloud.size(), 0),
           {.colour = settings.weight_colour,
            .ssim = settings.weight_ssim,

@@ -69,7 +69,7 @@ TEST_CASE("eval --run finds again what the run found, and needs no more than its
   CHECK(json["images"]["held_out"]["frames"] == 1);
   CHECK(json["memory"] == metrics["memory"]);
   // Poses and map went through files of 9 digits and of floats.
-  for (const char* key : {"psnr_db", "ssim", "depth_l1_m"}) {
+  for (const char* key : {"psnr_db", "psnr_same_exposure_db", "ssim", "depth_l1_m"}) {
     CAPTURE(key);
     const double expected = metrics["images"][key];
     CHECK(json["images"][key].get<double>() == doctest::Approx(expected).epsilon(1e-4));
