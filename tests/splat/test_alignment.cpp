@@ -6,11 +6,10 @@
 
 #include "engine/gpu/recorder.h"
 #include "engine/splat/rasteriser.h"
-#include "shaders/shared/align_halve.h"
-#include "shaders/shared/align_points.h"
 #include "shaders/shared/align_step.h"
 #include "shaders/shared/align_sums.h"
 #include "tests/splat/compare.h"
+#include "tests/splat/on_device.h"
 #include "tests/support/device.h"
 
 // The passes of Gauss-Newton tracking one by one, against double precision.
@@ -18,6 +17,7 @@
 using namespace surefield;
 using testing::largest_difference;
 using testing::magnitude;
+using testing::on_device;
 
 namespace {
 
@@ -28,13 +28,6 @@ constexpr double kVarianceColour = 0.01, kVarianceDepth = 4e-4;
 constexpr glsl::AlignScales kScales{static_cast<float>(kVarianceColour), static_cast<float>(kVarianceDepth)};
 constexpr double kFreedom = 5;
 constexpr double kBalance = 0.3;
-
-template <class T>
-gpu::Array<T> on_device(const std::string& name, const std::vector<T>& values) {
-  gpu::Array<T> array(testing::device(), name, values.size());
-  array.upload(values);
-  return array;
-}
 
 Eigen::Vector3d to_eigen(const glsl::vec3& v) {
   return {v.x, v.y, v.z};
@@ -352,59 +345,5 @@ TEST_CASE(
     const Pose want = small_motion(xi) * some_motion();
     CHECK((step(partial) - want.matrix()).norm() < 1e-5);
     CHECK((step(std::vector<glsl::AlignSums>(count)) - Pose::Identity().matrix()).norm() < 1e-6);
-  }
-}
-
-TEST_CASE("half an image is the mean of four pixels, and of the depths on the nearest surface") {
-  gpu::Device& device = testing::device();
-  const gpu::Pass<passes::align_halve> pass(device, 64);
-  // 5 x 3 pixels: the last column and row have no partner.
-  std::vector<glsl::vec2> source(15, {0.5f, 9.0f});
-  source[0] = {0.1f, 2.0f}, source[1] = {0.2f, 2.05f}, source[5] = {0.3f, 0.0f}, source[6] = {0.4f, 3.0f};
-  source[2] = {1, 0}, source[3] = {1, 0}, source[7] = {1, 0}, source[8] = {0, 0};
-  const auto large = on_device("source", source);
-  const gpu::Array<glsl::vec2> small(device, "image", 2);
-  gpu::Recorder recorder(device);
-  recorder.dispatch(pass, 1, {.source = large, .image = small}, {.width = 2, .height = 1, .source_width = 5});
-  recorder.submit();
-  const auto got = small.download(2);
-  CHECK(got[0].x == doctest::Approx(0.25));
-  CHECK(got[0].y == doctest::Approx(2.025));
-  CHECK(got[1].x == doctest::Approx(0.75));
-  CHECK(got[1].y == 0);
-}
-
-TEST_CASE("normals of a plane are the plane's at every level; none at the border and across edges") {
-  gpu::Device& device = testing::device();
-  const gpu::Pass<passes::align_points> pass(device, 64);
-  const Intrinsics full{.width = 64, .height = 48, .fx = 60, .fy = 55, .cx = 30, .cy = 25};
-  const Eigen::Vector3d normal = Eigen::Vector3d(0.1, -0.08, -1).normalized();
-  for (uint32_t level : {0u, 1u, 2u}) {
-    CAPTURE(level);
-    const Intrinsics k = full.scaled(std::pow(0.5, level));
-    std::vector<glsl::vec2> image;
-    for (int i = 0; i < k.width * k.height; ++i) {
-      const Eigen::Vector3d ray((i % k.width - k.cx) / k.fx, (i / k.width - k.cy) / k.fy, 1);
-      image.push_back({0.5f, static_cast<float>(-2.0 / normal.dot(ray))});
-    }
-    const int hole = 5 * k.width + 4;
-    image[hole].y = 0;
-    const auto rendered = on_device("image", image);
-    const auto camera = on_device("camera", std::vector{camera_state(full)});
-    const gpu::Array<glsl::AlignPoint> points(device, "points", image.size());
-    gpu::Recorder recorder(device);
-    recorder.dispatch(
-        pass, pass.groups(image.size()), {.camera = camera, .image = rendered, .points = points},
-        {.width = static_cast<uint32_t>(k.width), .height = static_cast<uint32_t>(k.height), .level = level});
-    recorder.submit();
-    const auto got = points.download(image.size());
-    for (int i = 0; i < k.width * k.height; ++i) {
-      const int u = i % k.width, v = i / k.width;
-      const bool border = u == 0 || v == 0 || u == k.width - 1 || v == k.height - 1;
-      const bool near_hole = std::abs(u - 4) + std::abs(v - 5) <= 1;
-      CHECK(got[i].depth == image[i].y);
-      const double want = border || near_hole ? 0 : 1;
-      CHECK(to_eigen(got[i].normal).dot(normal) == doctest::Approx(want).epsilon(1e-4));
-    }
   }
 }
