@@ -266,13 +266,13 @@ TEST_CASE("ablations mark what lies within the spread, and name what is beyond")
   CHECK(contains(text, "Mean over office, corridor."));
   CHECK(contains(text, "| variant | ATE RMSE [cm] | PSNR [dB] | Depth L1 [cm] | ATE RMSE [cm], office |"));
   CHECK(row_of(text, "Ablations", "**full**") ==
-        "| **full** | 1.20 ± 0.10 | 30.20 ± 0.10 | - | 1.20 ± 0.10 | 1.20 ± 0.10 |");
+        "| **full** | 1.200 ± 0.100 | 30.20 ± 0.10 | - | 1.200 ± 0.100 | 1.200 ± 0.100 |");
   CHECK(row_of(text, "Ablations", "**without L_align**") ==
-        "| **without L_align** | ≈ 1.33 ± 0.10 | 29.20 ± 0.10 | - | ≈ 1.33 ± 0.10 | ≈ 1.33 ± 0.10 |");
+        "| **without L_align** | ≈ 1.330 ± 0.100 | 29.20 ± 0.10 | - | ≈ 1.330 ± 0.100 | ≈ 1.330 ± 0.100 |");
   CHECK(row_of(text, "Ablations", "**without L_var**") ==
-        "| **without L_var** | 1.05 ± 0.10 | ≈ 30.20 ± 0.10 | - | 1.05 ± 0.10 | 1.05 ± 0.10 |");
+        "| **without L_var** | 1.050 ± 0.100 | ≈ 30.20 ± 0.10 | - | 1.050 ± 0.100 | 1.050 ± 0.100 |");
   CHECK(row_of(text, "Ablations", "**tracking by Adam**") ==
-        "| **tracking by Adam** | 1.30 | 31.10 | - | 1.30 | 1.30 |");
+        "| **tracking by Adam** | 1.300 | 31.10 | - | 1.300 | 1.300 |");
   CHECK(contains(text, "\nBetter than full beyond the spread: without L_var (ATE RMSE [cm]).\n"));
   CHECK(contains(text, "\nWorse than full beyond the spread: without L_align (PSNR [dB]).\n"));
 
