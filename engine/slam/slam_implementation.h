@@ -38,7 +38,7 @@ struct Slam::Implementation {
   std::vector<int> reference_keyframes;                 ///< whose images frames are aligned to beside the map
   std::optional<std::pair<Frame, FrameHandle>> newest;  ///< the last frame fed, unless it is a keyframe
   int last_keyframe_frame = 0;                          ///< position among the frames fed
-  double valid_after_keyframe = 1;                      ///< valid_fraction of the frame just after it
+  double valid_after_keyframe = 0;  ///< valid_fraction of the first frame tracked after it; 0: none yet
 
   Implementation(const SlamSettings& s, const Intrinsics& k, const EngineOptions& options)
       : settings(s),

@@ -14,6 +14,7 @@ void Slam::Implementation::add_keyframe(const Frame& frame, FrameHandle handle, 
       make_keyframe(frame, handle, camera, sample_points(frame, intrinsics, settings.depth_max)));
   frames.back() = {frame.timestamp, static_cast<int>(keyframes.size()) - 1, Pose::Identity()};
   last_keyframe_frame = static_cast<int>(frames.size()) - 1;
+  valid_after_keyframe = 0;
   const RenderImages rendered = engine.render(camera);
   Eigen::Vector3f& gains = keyframes.back().gains;
   gains = keyframes[keyframes.size() - 2].gains;

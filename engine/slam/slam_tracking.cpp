@@ -51,8 +51,7 @@ void Slam::Implementation::track(FrameHandle handle, FrameReport& report) {
   report.tracking_loss = result.loss;
   report.valid_fraction = result.valid_fraction;
   if (!report.lost) {
-    if (static_cast<int>(frames.size()) == last_keyframe_frame + 1)
-      valid_after_keyframe = result.valid_fraction;
+    if (valid_after_keyframe == 0) valid_after_keyframe = result.valid_fraction;
     recent_losses.push_back(result.loss);
     if (recent_losses.size() > kRecentLosses) recent_losses.pop_front();
   }

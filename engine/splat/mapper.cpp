@@ -10,8 +10,8 @@ uint32_t strips(uint32_t length) {
 
 }  // namespace
 
-CameraVariable::CameraVariable(gpu::Device& device, const Camera& initial, const Eigen::Vector3f& gains_)
-    : camera(device, "keyframe camera"), adam(device, "keyframe Adam"), gains(to_vec3(gains_)) {
+CameraVariable::CameraVariable(gpu::Device& device, const Camera& initial, const Eigen::Vector3f& view_gains)
+    : camera(device, "keyframe camera"), adam(device, "keyframe Adam"), gains(to_vec3(view_gains)) {
   const glsl::CameraState state = to_device(initial);
   camera.upload(std::span(&state, 1));
   adam.upload(std::vector<glsl::PoseAdam>{{}});

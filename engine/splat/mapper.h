@@ -20,7 +20,7 @@ struct CameraVariable {
   glsl::vec3 gains;  ///< the sensor's colours times these are those of the map
 
   CameraVariable(gpu::Device& device, const Camera& initial,
-                 const Eigen::Vector3f& gains = Eigen::Vector3f::Ones());
+                 const Eigen::Vector3f& view_gains = Eigen::Vector3f::Ones());
 };
 
 /// Optimises the map, and poses beside it, with all six losses (paper eq. 14 to 18 and 21).
