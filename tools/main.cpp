@@ -4,8 +4,9 @@
 #include <string>
 #include <thread>
 
-#include "tools/build_info.h"
-#include "tools/command.h"
+#include "engine/types/build_info.h"
+#include "engine/types/version.h"
+#include "tools/shared/command.h"
 
 namespace {
 

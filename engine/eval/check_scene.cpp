@@ -5,7 +5,7 @@
 #include <map>
 #include <utility>
 
-#include "engine/io/frame_stream.h"
+#include "engine/sources/frame_stream.h"
 
 namespace surefield {
 

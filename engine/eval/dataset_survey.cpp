@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "engine/eval/check_scene.h"
-#include "engine/io/median.h"
+#include "engine/types/median.h"
 
 namespace surefield {
 

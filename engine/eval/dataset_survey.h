@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "engine/io/frame_stream.h"
+#include "engine/sources/frame_stream.h"
 
 namespace surefield {
 

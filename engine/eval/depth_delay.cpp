@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "engine/eval/check_scene.h"
-#include "engine/io/error.h"
-#include "engine/io/frame_stream.h"
-#include "engine/io/median.h"
+#include "engine/sources/frame_stream.h"
+#include "engine/types/error.h"
+#include "engine/types/median.h"
 
 namespace surefield {
 

@@ -3,7 +3,7 @@
 #include <functional>
 #include <memory>
 
-#include "engine/io/dataset.h"
+#include "engine/sources/dataset.h"
 
 namespace surefield {
 

@@ -2,8 +2,8 @@
 
 #include <cmath>
 
-#include "engine/io/error.h"
 #include "engine/io/onnx_file.h"
+#include "engine/types/error.h"
 
 namespace surefield {
 

@@ -4,7 +4,7 @@
 #include <Eigen/SVD>
 #include <algorithm>
 
-#include "engine/io/error.h"
+#include "engine/types/error.h"
 
 namespace surefield {
 

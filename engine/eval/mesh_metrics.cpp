@@ -6,8 +6,8 @@
 #include "engine/eval/mesh_alignment.h"
 #include "engine/eval/surface_samples.h"
 #include "engine/eval/triangle_tree.h"
-#include "engine/io/error.h"
-#include "engine/io/median.h"
+#include "engine/types/error.h"
+#include "engine/types/median.h"
 
 namespace surefield {
 

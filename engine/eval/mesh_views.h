@@ -2,8 +2,8 @@
 
 #include <vector>
 
-#include "engine/io/triangle_mesh.h"
-#include "engine/splat/camera.h"
+#include "engine/formats/triangle_mesh.h"
+#include "engine/types/camera.h"
 
 namespace surefield {
 

@@ -3,7 +3,7 @@
 #include <opencv2/core.hpp>
 #include <vector>
 
-#include "engine/splat/camera.h"
+#include "engine/types/camera.h"
 
 namespace surefield {
 

@@ -6,7 +6,7 @@
 #include <nanoflann.hpp>
 #include <random>
 
-#include "engine/io/error.h"
+#include "engine/types/error.h"
 
 namespace surefield {
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <tuple>
 
-#include "engine/io/error.h"
+#include "engine/types/error.h"
 
 namespace surefield {
 

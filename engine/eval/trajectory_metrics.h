@@ -3,7 +3,7 @@
 #include <Eigen/Geometry>
 #include <vector>
 
-#include "engine/io/trajectory.h"
+#include "engine/types/trajectory.h"
 
 namespace surefield {
 

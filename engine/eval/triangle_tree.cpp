@@ -5,7 +5,7 @@
 #include <limits>
 #include <numeric>
 
-#include "engine/io/error.h"
+#include "engine/types/error.h"
 
 namespace surefield {
 

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "engine/io/triangle_mesh.h"
+#include "engine/formats/triangle_mesh.h"
 
 namespace surefield {
 

@@ -5,7 +5,7 @@
 #include <limits>
 #include <opencv2/imgproc.hpp>
 
-#include "engine/io/median.h"
+#include "engine/types/median.h"
 
 namespace surefield {
 

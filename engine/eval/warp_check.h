@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "engine/io/dataset.h"
+#include "engine/sources/dataset.h"
 
 namespace surefield {
 

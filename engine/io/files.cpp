@@ -6,7 +6,7 @@
 #include <fstream>
 #include <sstream>
 
-#include "engine/io/error.h"
+#include "engine/types/error.h"
 
 namespace surefield {
 

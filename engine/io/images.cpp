@@ -1,14 +1,12 @@
 #include "engine/io/images.h"
 
-#include <nlohmann/json.hpp>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 #include <string_view>
 #include <vector>
 
-#include "engine/io/error.h"
 #include "engine/io/files.h"
-#include "engine/io/json_file.h"
+#include "engine/types/error.h"
 
 namespace surefield {
 
@@ -125,24 +123,6 @@ void write_jpeg(const std::filesystem::path& file, const cv::Mat& image, int qua
     throw InputError(file, "an image of this type cannot be written as JPEG");
   }
   encode(file, ".jpg", image, {cv::IMWRITE_JPEG_QUALITY, quality});
-}
-
-Camera read_camera(const std::filesystem::path& file) {
-  const JsonObject object(file);
-  Camera camera;
-  camera.intrinsics = read_intrinsics(object, "width", "height");
-  camera.world_to_camera = read_world_to_camera(object);
-  return camera;
-}
-
-void write_camera(const std::filesystem::path& file, const Camera& camera) {
-  const Intrinsics& k = camera.intrinsics;
-  nlohmann::ordered_json json = {{"width", k.width}, {"height", k.height}, {"fx", k.fx},
-                                 {"fy", k.fy},       {"cx", k.cx},         {"cy", k.cy}};
-  const Eigen::Matrix4d pose = camera.world_to_camera.matrix();
-  for (int r = 0; r < 4; ++r)
-    json["world_to_camera"].push_back({pose(r, 0), pose(r, 1), pose(r, 2), pose(r, 3)});
-  write_file(file, [&](std::ostream& stream) { stream << json.dump(1) << "\n"; });
 }
 
 }  // namespace surefield

@@ -4,7 +4,7 @@
 #include <opencv2/core.hpp>
 #include <string>
 
-#include "engine/splat/camera.h"
+#include "engine/types/camera.h"
 
 namespace surefield {
 
@@ -50,14 +50,5 @@ void write_png(const std::filesystem::path& file, const cv::Mat& image);
 /// Writes an RGB image (CV_8UC3) as JPEG of that quality, 1 to 100. Throws InputError when the type is
 /// another or the file cannot be written.
 void write_jpeg(const std::filesystem::path& file, const cv::Mat& image, int quality);
-
-/// Reads a camera from JSON: numbers width, height, fx, fy, cx, cy (pixels) and world_to_camera, four rows of
-/// four numbers (metres). Throws InputError naming the key that is missing or wrong, also where the rotation
-/// is none.
-Camera read_camera(const std::filesystem::path& file);
-
-/// Writes a camera as read_camera() reads it; no digit is lost. Throws InputError when the file cannot be
-/// written.
-void write_camera(const std::filesystem::path& file, const Camera& camera);
 
 }  // namespace surefield

@@ -4,36 +4,10 @@
 #include <limits>
 #include <utility>
 
-#include "engine/io/error.h"
 #include "engine/io/files.h"
-#include "engine/io/images.h"
+#include "engine/types/error.h"
 
 namespace surefield {
-
-namespace {
-
-int read_side(const JsonObject& object, const std::string& key) {
-  const double side = object.positive(key);
-  if (side != std::floor(side) || side > kLargestSide) object.fail(key, "must be a whole number of pixels");
-  return static_cast<int>(side);
-}
-
-/// The 16 numbers of a 4 x 4 matrix that is stored as an array of rows.
-std::vector<double> read_rows(const JsonObject& object, const std::string& key) {
-  const nlohmann::json& rows = object.at(key);
-  std::vector<double> numbers;
-  for (const nlohmann::json& row : rows) {
-    if (!rows.is_array() || !row.is_array() || row.size() != 4)
-      object.fail(key, "must be four rows of four numbers");
-    for (const nlohmann::json& number : row) {
-      if (!number.is_number()) object.fail(key, "must hold numbers only");
-      numbers.push_back(number.get<double>());
-    }
-  }
-  return numbers;
-}
-
-}  // namespace
 
 JsonObject::JsonObject(const std::filesystem::path& file) : file_(file) {
   try {
@@ -96,26 +70,6 @@ bool JsonObject::has(const std::string& key) const {
 
 void JsonObject::fail(const std::string& key, const std::string& problem) const {
   throw InputError(file_, "\"" + key + "\" " + problem);
-}
-
-Intrinsics read_intrinsics(const JsonObject& object, const std::string& width_key,
-                           const std::string& height_key) {
-  Intrinsics intrinsics;
-  intrinsics.width = read_side(object, width_key);
-  intrinsics.height = read_side(object, height_key);
-  intrinsics.fx = object.positive("fx");
-  intrinsics.fy = object.positive("fy");
-  intrinsics.cx = object.number("cx");
-  intrinsics.cy = object.number("cy");
-  return intrinsics;
-}
-
-Pose read_world_to_camera(const JsonObject& object) {
-  constexpr const char* kKey = "world_to_camera";
-  const auto pose = rigid_from_rows(read_rows(object, kKey));
-  if (!pose || !pose->matrix().allFinite())
-    object.fail(kKey, "must be a rotation and a translation, with the last row 0 0 0 1");
-  return *pose;
 }
 
 }  // namespace surefield

@@ -1,11 +1,10 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
-
-#include "engine/splat/camera.h"
 
 namespace surefield {
 
@@ -44,13 +43,5 @@ class JsonObject {
   std::filesystem::path file_;
   nlohmann::json value_;
 };
-
-/// Pinhole intrinsics from an object: the size under `width_key` and `height_key` (whole pixels), and fx, fy,
-/// cx, cy. Throws InputError.
-Intrinsics read_intrinsics(const JsonObject& object, const std::string& width_key,
-                           const std::string& height_key);
-
-/// The rigid transform (metres) under "world_to_camera", four rows of four numbers. Throws InputError.
-Pose read_world_to_camera(const JsonObject& object);
 
 }  // namespace surefield

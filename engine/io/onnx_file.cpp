@@ -5,8 +5,8 @@
 #include <set>
 #include <string_view>
 
-#include "engine/io/error.h"
 #include "engine/io/files.h"
+#include "engine/types/error.h"
 
 namespace surefield {
 

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <unordered_map>
 
-#include "engine/io/triangle_mesh.h"
+#include "engine/formats/triangle_mesh.h"
 #include "engine/mesh/cell_triangles.h"
 
 namespace surefield {

@@ -11,9 +11,9 @@
 #include <unordered_set>
 #include <vector>
 
-#include "engine/io/error.h"
 #include "engine/mesh/depth_sampler.h"
 #include "engine/mesh/surface_builder.h"
+#include "engine/types/error.h"
 
 namespace surefield {
 

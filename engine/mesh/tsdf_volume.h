@@ -4,8 +4,8 @@
 #include <memory>
 #include <span>
 
-#include "engine/io/triangle_mesh.h"
-#include "engine/splat/camera.h"
+#include "engine/formats/triangle_mesh.h"
+#include "engine/types/camera.h"
 
 namespace surefield {
 

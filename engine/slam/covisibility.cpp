@@ -1,8 +1,8 @@
 #include "engine/slam/covisibility.h"
 
-#include "engine/io/error.h"
-#include "engine/slam/netvlad.h"
-#include "engine/slam/vlad.h"
+#include "engine/places/netvlad.h"
+#include "engine/places/vlad.h"
+#include "engine/types/error.h"
 
 namespace surefield {
 

@@ -3,8 +3,8 @@
 #include <memory>
 #include <vector>
 
-#include "engine/slam/descriptor_pool.h"
-#include "engine/slam/image_descriptor.h"
+#include "engine/places/descriptor_pool.h"
+#include "engine/places/image_descriptor.h"
 #include "engine/slam/keyframes.h"
 #include "engine/slam/settings.h"
 

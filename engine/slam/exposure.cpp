@@ -3,7 +3,7 @@
 #include <cmath>
 #include <vector>
 
-#include "engine/io/median.h"
+#include "engine/types/median.h"
 
 namespace surefield {
 

@@ -3,8 +3,8 @@
 #include <Eigen/Core>
 #include <optional>
 
-#include "engine/io/frame.h"
-#include "engine/splat/render_images.h"
+#include "engine/types/frame.h"
+#include "engine/types/render_images.h"
 
 namespace surefield {
 

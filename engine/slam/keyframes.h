@@ -4,8 +4,8 @@
 #include <random>
 #include <vector>
 
-#include "engine/io/frame.h"
 #include "engine/splat/engine.h"
+#include "engine/types/frame.h"
 
 namespace surefield {
 

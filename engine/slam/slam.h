@@ -3,9 +3,10 @@
 #include <memory>
 #include <vector>
 
-#include "engine/io/frame.h"
-#include "engine/io/trajectory.h"
+#include "engine/io/trajectory_file.h"
 #include "engine/slam/settings.h"
+#include "engine/types/frame.h"
+#include "engine/types/trajectory.h"
 
 namespace surefield {
 

@@ -5,8 +5,8 @@
 #include <stdexcept>
 #include <utility>
 
-#include "engine/io/median.h"
 #include "engine/slam/surface_normal.h"
+#include "engine/types/median.h"
 
 namespace surefield {
 

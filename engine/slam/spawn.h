@@ -1,7 +1,7 @@
 #pragma once
 
-#include "engine/io/frame.h"
 #include "engine/slam/settings.h"
+#include "engine/types/frame.h"
 
 namespace surefield {
 

@@ -2,8 +2,8 @@
 
 #include <Eigen/Core>
 
-#include "engine/io/frame.h"
-#include "engine/splat/camera.h"
+#include "engine/types/camera.h"
+#include "engine/types/frame.h"
 
 namespace surefield {
 

@@ -2,7 +2,7 @@
 
 #include "engine/gpu/buffer.h"
 #include "engine/gpu/glsl_types.h"
-#include "engine/splat/gaussian_cloud.h"
+#include "engine/types/gaussian_cloud.h"
 
 namespace surefield {
 

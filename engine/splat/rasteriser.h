@@ -2,10 +2,10 @@
 
 #include <limits>
 
-#include "engine/splat/camera.h"
 #include "engine/splat/pose_gradient.h"
-#include "engine/splat/render_images.h"
 #include "engine/splat/tile_lists.h"
+#include "engine/types/camera.h"
+#include "engine/types/render_images.h"
 #include "shaders/shared/blend_backward.h"
 #include "shaders/shared/blend_backward_pose.h"
 #include "shaders/shared/blend_forward.h"

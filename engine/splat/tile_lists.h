@@ -2,8 +2,8 @@
 
 #include "engine/primitives/radix_sort.h"
 #include "engine/primitives/scan.h"
-#include "engine/splat/depth_model.h"
 #include "engine/splat/gaussian_map.h"
+#include "engine/types/depth_model.h"
 #include "shaders/shared/compact_visible.h"
 #include "shaders/shared/emit_instances.h"
 #include "shaders/shared/find_tile_ranges.h"

@@ -7,8 +7,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "engine/io/error.h"
 #include "engine/synth/random.h"
+#include "engine/types/error.h"
 
 namespace surefield {
 

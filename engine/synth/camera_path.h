@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "engine/splat/camera.h"
 #include "engine/synth/scene.h"
+#include "engine/types/camera.h"
 
 namespace surefield {
 

@@ -7,8 +7,8 @@
 #include <cmath>
 #include <limits>
 
-#include "engine/io/error.h"
 #include "engine/synth/places.h"
+#include "engine/types/error.h"
 
 namespace surefield {
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "engine/io/triangle_mesh.h"
+#include "engine/formats/triangle_mesh.h"
 #include "engine/synth/scene.h"
 
 namespace surefield {

@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
-#include "engine/io/error.h"
 #include "engine/synth/light_lists.h"
+#include "engine/types/error.h"
 
 namespace surefield {
 

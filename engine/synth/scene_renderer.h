@@ -7,8 +7,8 @@
 
 #include "engine/gpu/pass.h"
 #include "engine/gpu/recorder.h"
-#include "engine/splat/camera.h"
 #include "engine/synth/scene.h"
+#include "engine/types/camera.h"
 #include "shaders/shared/cast_scene.h"
 
 namespace surefield {

@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <opencv2/core.hpp>
 
-#include "engine/splat/camera.h"
+#include "engine/types/camera.h"
 
 namespace surefield {
 

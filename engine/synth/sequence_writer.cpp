@@ -6,11 +6,12 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "engine/io/camera_file.h"
-#include "engine/io/error.h"
 #include "engine/io/files.h"
 #include "engine/io/images.h"
+#include "engine/io/trajectory_file.h"
+#include "engine/sources/camera_file.h"
 #include "engine/synth/scene_mesh.h"
+#include "engine/types/error.h"
 
 namespace surefield {
 

@@ -2,8 +2,8 @@
 
 #include <utility>
 
-#include "engine/io/error.h"
 #include "engine/synth/random.h"
+#include "engine/types/error.h"
 
 namespace surefield {
 

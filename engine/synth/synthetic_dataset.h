@@ -5,7 +5,7 @@
 #include <string>
 
 #include "engine/gpu/device.h"
-#include "engine/io/dataset.h"
+#include "engine/sources/dataset.h"
 #include "engine/synth/camera_path.h"
 #include "engine/synth/scene_renderer.h"
 #include "engine/synth/sensor_model.h"

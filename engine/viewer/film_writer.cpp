@@ -7,9 +7,9 @@
 #include <opencv2/imgproc.hpp>
 #include <opencv2/videoio.hpp>
 
-#include "engine/io/error.h"
 #include "engine/io/files.h"
 #include "engine/io/images.h"
+#include "engine/types/error.h"
 
 namespace surefield {
 

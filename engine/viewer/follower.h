@@ -1,6 +1,6 @@
 #pragma once
 
-#include "engine/splat/camera.h"
+#include "engine/types/camera.h"
 
 namespace surefield {
 

@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "engine/splat/gaussian_cloud.h"
+#include "engine/types/gaussian_cloud.h"
 #include "engine/viewer/viewer_scene.h"
 
 namespace surefield {

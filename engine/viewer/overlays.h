@@ -1,6 +1,6 @@
 #pragma once
 
-#include "engine/io/trajectory.h"
+#include "engine/types/trajectory.h"
 #include "engine/viewer/line_overlay.h"
 
 namespace surefield {

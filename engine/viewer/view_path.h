@@ -2,9 +2,10 @@
 
 #include <filesystem>
 
-#include "engine/io/trajectory.h"
-#include "engine/splat/camera.h"
-#include "engine/splat/gaussian_cloud.h"
+#include "engine/io/camera_json.h"
+#include "engine/types/camera.h"
+#include "engine/types/gaussian_cloud.h"
+#include "engine/types/trajectory.h"
 
 namespace surefield {
 

@@ -1,7 +1,8 @@
 #include <cmath>
 
-#include "engine/io/error.h"
+#include "engine/io/camera_json.h"
 #include "engine/io/json_file.h"
+#include "engine/types/error.h"
 #include "engine/viewer/view_path.h"
 
 namespace surefield {

@@ -1,7 +1,7 @@
 #include "engine/window/glfw_window.h"
 
 #include "engine/gpu/error.h"
-#include "engine/io/error.h"
+#include "engine/types/error.h"
 
 namespace surefield {
 

@@ -1,5 +1,5 @@
 // Takes the place of the viewer where the program is built without GLFW or Dear ImGui.
-#include "engine/io/error.h"
+#include "engine/types/error.h"
 #include "engine/window/viewer.h"
 
 namespace surefield {

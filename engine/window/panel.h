@@ -1,6 +1,6 @@
 #pragma once
 
-#include "engine/io/config.h"
+#include "engine/config/config.h"
 #include "engine/window/viewer_state.h"
 
 namespace surefield {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/io/config.h"
+#include "engine/config/config.h"
 #include "engine/splat/engine.h"
 #include "engine/viewer/live_feed.h"
 

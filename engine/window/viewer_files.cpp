@@ -1,9 +1,10 @@
 // What the viewer writes.
 #include <fmt/format.h>
 
-#include "engine/io/error.h"
+#include "engine/formats/ply.h"
+#include "engine/io/camera_json.h"
 #include "engine/io/images.h"
-#include "engine/io/ply.h"
+#include "engine/types/error.h"
 #include "engine/window/viewer_app.h"
 
 namespace surefield {

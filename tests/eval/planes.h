@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "engine/io/dataset.h"
+#include "engine/sources/dataset.h"
 
 namespace surefield::test {
 

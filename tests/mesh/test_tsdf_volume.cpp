@@ -6,7 +6,7 @@
 
 #include "engine/mesh/depth_sampler.h"
 #include "engine/mesh/tsdf_volume.h"
-#include "tests/io/support.h"
+#include "tests/support/input_files.h"
 
 using namespace surefield;
 

@@ -3,8 +3,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "engine/splat/camera.h"
-#include "engine/splat/gaussian_cloud.h"
+#include "engine/types/camera.h"
+#include "engine/types/gaussian_cloud.h"
 
 namespace surefield::reference {
 

@@ -6,9 +6,9 @@
 #include <cstdint>
 #include <vector>
 
-#include "engine/splat/camera.h"
-#include "engine/splat/gaussian_cloud.h"
-#include "engine/splat/render_images.h"
+#include "engine/types/camera.h"
+#include "engine/types/gaussian_cloud.h"
+#include "engine/types/render_images.h"
 
 /// The oracle: the method of docs/method.md computed in double precision, slowly and obviously, for tests to
 /// compare with. Conventions (frames, units, pixel centres) are those of engine/splat/camera.h.

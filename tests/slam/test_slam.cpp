@@ -5,10 +5,10 @@
 #include <stdexcept>
 
 #include "engine/eval/trajectory_metrics.h"
-#include "engine/io/error.h"
-#include "engine/io/frame_stream.h"
 #include "engine/slam/slam.h"
+#include "engine/sources/frame_stream.h"
 #include "engine/synth/synthetic_dataset.h"
+#include "engine/types/error.h"
 #include "tests/support/device.h"
 
 using namespace surefield;

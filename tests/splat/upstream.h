@@ -1,6 +1,6 @@
 #pragma once
 
-#include "engine/splat/render_images.h"
+#include "engine/types/render_images.h"
 #include "shaders/shared/splat_types.h"
 #include "tests/reference/types.h"
 

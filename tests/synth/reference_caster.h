@@ -2,8 +2,8 @@
 
 #include <limits>
 
-#include "engine/splat/camera.h"
 #include "engine/synth/scene.h"
+#include "engine/types/camera.h"
 
 namespace surefield::testing {
 

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <numbers>
 
-#include "engine/io/error.h"
+#include "engine/types/error.h"
 
 using namespace surefield;
 using Eigen::Vector3d;

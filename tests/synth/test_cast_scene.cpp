@@ -3,10 +3,10 @@
 #include <cmath>
 #include <vector>
 
-#include "engine/io/error.h"
 #include "engine/synth/camera_path.h"
 #include "engine/synth/random.h"
 #include "engine/synth/scene_renderer.h"
+#include "engine/types/error.h"
 #include "shaders/shared/synth_types.h"
 #include "tests/support/device.h"
 #include "tests/synth/reference_caster.h"

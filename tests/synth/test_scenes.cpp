@@ -5,9 +5,9 @@
 #include <map>
 #include <vector>
 
-#include "engine/io/error.h"
 #include "engine/synth/camera_path.h"
 #include "engine/synth/scene_renderer.h"
+#include "engine/types/error.h"
 #include "tests/support/device.h"
 
 using namespace surefield;

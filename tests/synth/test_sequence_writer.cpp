@@ -2,11 +2,11 @@
 
 #include <doctest/doctest.h>
 
-#include "engine/io/error.h"
+#include "engine/formats/triangle_mesh.h"
 #include "engine/io/files.h"
-#include "engine/io/triangle_mesh.h"
-#include "tests/io/support.h"
+#include "engine/types/error.h"
 #include "tests/support/device.h"
+#include "tests/support/input_files.h"
 
 using namespace surefield;
 using surefield::test::TemporaryFolder;

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <vector>
 
-#include "engine/io/error.h"
+#include "engine/types/error.h"
 #include "tests/support/device.h"
 
 using namespace surefield;

@@ -4,9 +4,10 @@
 #include <exception>
 #include <filesystem>
 
-#include "engine/io/frame_stream.h"
-#include "engine/io/ply.h"
+#include "engine/formats/ply.h"
+#include "engine/io/trajectory_file.h"
 #include "engine/slam/slam.h"
+#include "engine/sources/frame_stream.h"
 #include "engine/synth/synthetic_dataset.h"
 
 int main() {

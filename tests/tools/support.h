@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "tests/io/support.h"
+#include "tests/support/input_files.h"
 
 namespace surefield::test {
 

@@ -2,11 +2,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/io/ply.h"
+#include "engine/formats/ply.h"
 #include "engine/splat/rasteriser.h"
 #include "tests/support/device.h"
 #include "tests/tools/support.h"
-#include "tools/cpu_blend.h"
+#include "tools/bench/cpu_blend.h"
 
 using namespace surefield;
 using namespace surefield::test;

@@ -1,11 +1,11 @@
 // The configurations that the program carries inside it.
 #include <sstream>
 
+#include "engine/config/built_in_configs.h"
 #include "engine/io/files.h"
 #include "engine/slam/settings.h"
-#include "tests/io/support.h"
-#include "tools/build_info.h"
-#include "tools/run_configuration.h"
+#include "tests/support/input_files.h"
+#include "tools/results/run_configuration.h"
 
 using namespace surefield;
 

@@ -1,6 +1,7 @@
 #include <cmath>
 
-#include "engine/io/trajectory.h"
+#include "engine/io/trajectory_file.h"
+#include "engine/types/trajectory.h"
 #include "tests/tools/support.h"
 
 using namespace surefield;

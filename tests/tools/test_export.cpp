@@ -1,8 +1,8 @@
 #include <cmath>
 
+#include "engine/formats/map_file.h"
+#include "engine/formats/triangle_mesh.h"
 #include "engine/io/files.h"
-#include "engine/io/map_file.h"
-#include "engine/io/triangle_mesh.h"
 #include "tests/tools/support.h"
 
 using namespace surefield;

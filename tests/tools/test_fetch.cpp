@@ -7,9 +7,9 @@
 #include "engine/io/files.h"
 #include "tests/tools/support.h"
 #include "tests/tools/test_server.h"
-#include "tools/public_datasets.h"
-#include "tools/sha256.h"
-#include "tools/unpack.h"
+#include "tools/data/public_datasets.h"
+#include "tools/data/sha256.h"
+#include "tools/data/unpack.h"
 
 using namespace surefield;
 using namespace surefield::test;

@@ -4,10 +4,11 @@
 #include <cmath>
 #include <opencv2/videoio.hpp>
 
+#include "engine/formats/ply.h"
 #include "engine/io/files.h"
 #include "engine/io/images.h"
-#include "engine/io/ply.h"
-#include "engine/io/trajectory.h"
+#include "engine/io/trajectory_file.h"
+#include "engine/types/trajectory.h"
 #include "tests/tools/support.h"
 
 using namespace surefield;

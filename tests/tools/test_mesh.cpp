@@ -1,8 +1,8 @@
+#include "engine/formats/triangle_mesh.h"
 #include "engine/io/files.h"
-#include "engine/io/triangle_mesh.h"
 
-#include "engine/io/ply.h"
-#include "engine/io/trajectory.h"
+#include "engine/formats/ply.h"
+#include "engine/types/trajectory.h"
 #include "tests/tools/support.h"
 
 using namespace surefield;

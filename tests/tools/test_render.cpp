@@ -1,8 +1,8 @@
 #include <cmath>
 #include <opencv2/core.hpp>
 
+#include "engine/formats/ply.h"
 #include "engine/io/images.h"
-#include "engine/io/ply.h"
 #include "tests/tools/support.h"
 
 using namespace surefield;

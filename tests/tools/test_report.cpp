@@ -1,7 +1,8 @@
 #include <cmath>
 
 #include "engine/io/files.h"
-#include "engine/io/trajectory.h"
+#include "engine/io/trajectory_file.h"
+#include "engine/types/trajectory.h"
 #include "tests/report/markup.h"
 #include "tests/tools/support.h"
 

@@ -4,9 +4,9 @@
 #include <cstdlib>
 #include <sstream>
 
+#include "engine/formats/triangle_mesh.h"
 #include "engine/io/files.h"
 #include "engine/io/images.h"
-#include "engine/io/triangle_mesh.h"
 #include "engine/slam/settings.h"
 #include "tests/tools/support.h"
 

@@ -4,12 +4,13 @@
 #include <set>
 #include <sstream>
 
+#include "engine/formats/ply.h"
 #include "engine/io/files.h"
 #include "engine/io/images.h"
-#include "engine/io/ply.h"
-#include "engine/io/trajectory.h"
+#include "engine/io/trajectory_file.h"
 #include "engine/slam/settings.h"
 #include "engine/synth/synthetic_dataset.h"
+#include "engine/types/trajectory.h"
 #include "tests/support/device.h"
 #include "tests/tools/support.h"
 

@@ -1,7 +1,7 @@
 #include <fstream>
 
-#include "engine/io/dataset.h"
-#include "engine/io/triangle_mesh.h"
+#include "engine/formats/triangle_mesh.h"
+#include "engine/sources/dataset.h"
 #include "tests/tools/support.h"
 
 using namespace surefield;

@@ -7,9 +7,9 @@
 #include <random>
 #include <thread>
 
+#include "engine/formats/ply.h"
 #include "engine/io/files.h"
 #include "engine/io/images.h"
-#include "engine/io/ply.h"
 #include "engine/window/viewer.h"
 #include "tests/tools/support.h"
 #include "tests/tools/virtual_screen.h"

@@ -6,10 +6,11 @@
 #include <optional>
 
 #include "engine/eval/image_metrics.h"
+#include "engine/formats/map_file.h"
 #include "engine/io/files.h"
 #include "engine/io/images.h"
-#include "engine/io/map_file.h"
-#include "engine/io/trajectory.h"
+#include "engine/io/trajectory_file.h"
+#include "engine/types/trajectory.h"
 #include "tests/tools/support.h"
 
 using namespace surefield;

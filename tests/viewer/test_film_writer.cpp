@@ -3,7 +3,7 @@
 
 #include "engine/io/images.h"
 #include "engine/viewer/film_writer.h"
-#include "tests/io/support.h"
+#include "tests/support/input_files.h"
 
 using namespace surefield;
 using namespace surefield::test;

@@ -3,7 +3,7 @@
 
 #include "engine/viewer/follower.h"
 #include "engine/viewer/view_path.h"
-#include "tests/io/support.h"
+#include "tests/support/input_files.h"
 
 using namespace surefield;
 using namespace surefield::test;

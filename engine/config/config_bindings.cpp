@@ -1,0 +1,146 @@
+// How the fields of settings are bound to keys: parsing, checking and printing of each type.
+#include <fmt/format.h>
+#include <yaml-cpp/yaml.h>
+
+#include <algorithm>
+#include <charconv>
+#include <optional>
+#include <stdexcept>
+#include <type_traits>
+
+#include "engine/config/config.h"
+
+namespace surefield {
+
+namespace {
+
+template <typename T>
+std::optional<T> parse_number(const YAML::Node& node, Range range) {
+  if (!node.IsScalar()) return std::nullopt;
+  const std::string& text = node.Scalar();
+  T number{};
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
+  // Written so that NaN is refused too.
+  if (!(number >= range.min && number <= range.max)) return std::nullopt;
+  return number;
+}
+
+std::string describe(Range range) {
+  return fmt::format("from {} to {}", range.min, range.max);
+}
+
+std::string print_text(const std::string& text) {
+  YAML::Emitter emitter;
+  emitter << YAML::DoubleQuoted << text;
+  return emitter.c_str();
+}
+
+std::string join(const std::vector<std::string>& names) {
+  return fmt::format("{}", fmt::join(names, ", "));
+}
+
+template <typename T>
+std::function<std::string(const YAML::Node&)> number_parser(T* value, Range range, const char* kind) {
+  return [=](const YAML::Node& node) -> std::string {
+    const auto number = parse_number<T>(node, range);
+    if (!number) return fmt::format("{} {}", kind, describe(range));
+    *value = *number;
+    return {};
+  };
+}
+
+template <typename T>
+std::function<std::string()> number_printer(const T* value) {
+  return [value] { return fmt::format("{}", *value); };
+}
+
+std::string with_range(const std::string& help, Range range) {
+  return fmt::format("{} [{} to {}]", help, range.min, range.max);
+}
+
+}  // namespace
+
+template <typename T>
+void ConfigSchema::add_number(const std::string& key, T* value, Range range, const std::string& help,
+                              const char* kind) {
+  const auto number = [=] {
+    return NumberSetting{key, help, range, std::is_integral_v<T>, static_cast<double>(*value)};
+  };
+  add_entry({key, with_range(help, range), false, number_parser(value, range, kind), number_printer(value),
+             number});
+}
+
+void ConfigSchema::add(const std::string& key, int* value, Range range, const std::string& help) {
+  add_number(key, value, range, help, "a whole number");
+}
+
+void ConfigSchema::add(const std::string& key, float* value, Range range, const std::string& help) {
+  add_number(key, value, range, help, "a number");
+}
+
+void ConfigSchema::add(const std::string& key, double* value, Range range, const std::string& help) {
+  add_number(key, value, range, help, "a number");
+}
+
+void ConfigSchema::add(const std::string& key, bool* value, const std::string& help) {
+  const auto parse = [value](const YAML::Node& node) -> std::string {
+    if (!node.IsScalar() || (node.Scalar() != "true" && node.Scalar() != "false")) return "true or false";
+    *value = node.Scalar() == "true";
+    return {};
+  };
+  add_entry({key, help, false, parse, [value] { return std::string(*value ? "true" : "false"); }});
+}
+
+void ConfigSchema::add(const std::string& key, std::string* value, const std::string& help) {
+  const auto parse = [value](const YAML::Node& node) -> std::string {
+    if (!node.IsScalar()) return "text";
+    *value = node.Scalar();
+    return {};
+  };
+  add_entry({key, help, false, parse, [value] { return print_text(*value); }});
+}
+
+void ConfigSchema::add(const std::string& key, std::vector<double>* value, Range range,
+                       const std::string& help) {
+  const std::size_t size = value->size();
+  const auto parse = [=](const YAML::Node& node) -> std::string {
+    const std::string expected = fmt::format("a list of {} numbers {}", size, describe(range));
+    if (!node.IsSequence() || node.size() != size) return expected;
+    std::vector<double> numbers;
+    for (const YAML::Node& item : node) {
+      const auto number = parse_number<double>(item, range);
+      if (!number) return expected;
+      numbers.push_back(*number);
+    }
+    *value = numbers;
+    return {};
+  };
+  add_entry({key, with_range(help, range), true, parse,
+             [value] { return fmt::format("[{}]", fmt::join(*value, ", ")); }});
+}
+
+void ConfigSchema::add(const std::string& key, std::string* value, const std::vector<std::string>& names,
+                       const std::string& help) {
+  const auto store = [value, names](std::size_t i) { *value = names[i]; };
+  const auto load = [value, names] {
+    return static_cast<std::size_t>(std::find(names.begin(), names.end(), *value) - names.begin());
+  };
+  add_choice(key, names, store, load, help);
+}
+
+void ConfigSchema::add_choice(const std::string& key, const std::vector<std::string>& names,
+                              std::function<void(std::size_t)> store, std::function<std::size_t()> load,
+                              const std::string& help) {
+  if (load() >= names.size()) throw std::logic_error("the default of " + key + " is not among its choices");
+  const auto parse = [=](const YAML::Node& node) -> std::string {
+    const auto name = node.IsScalar() ? std::find(names.begin(), names.end(), node.Scalar()) : names.end();
+    if (name == names.end()) return "one of " + join(names);
+    store(static_cast<std::size_t>(name - names.begin()));
+    return {};
+  };
+  const auto print = [=] { return print_text(names.at(load())); };
+  add_entry({key, fmt::format("{} [{}]", help, join(names)), false, parse, print});
+}
+
+}  // namespace surefield

@@ -1,0 +1,53 @@
+// What is said about each frame, in metrics.json and in frames.csv; docs/evaluation.md describes the columns.
+#include <fmt/format.h>
+
+#include "engine/session/frame_table.h"
+
+namespace surefield {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+}  // namespace
+
+nlohmann::ordered_json frame_json(const FrameReport& frame) {
+  return {{"index", frame.index},
+          {"timestamp_s", frame.timestamp},
+          {"keyframe", frame.keyframe},
+          {"lost", frame.lost},
+          {"retries", frame.retries},
+          {"loss", frame.tracking_loss},
+          {"valid_fraction", frame.valid_fraction},
+          {"tracking_iterations", frame.tracking_iterations},
+          {"tracking_ms", frame.tracking_ms},
+          {"mapping_iterations", frame.mapping_iterations},
+          {"mapping_ms", frame.mapping_ms},
+          {"gaussians", frame.gaussians},
+          {"uncertain_gaussians", frame.uncertain_gaussians},
+          {"device_gaussians", frame.device_gaussians},
+          {"device_mb", static_cast<double>(frame.device_bytes) / 1e6}};
+}
+
+std::string frames_csv(const std::vector<FrameReport>& frames) {
+  std::string text;
+  const auto add_line = [&](const Json& frame, auto&& cell) {
+    const char* separator = "";
+    for (const auto& column : frame.items()) {
+      text += separator;
+      text += cell(column);
+      separator = ",";
+    }
+    text += "\n";
+  };
+  add_line(frame_json({}), [](const auto& column) { return column.key(); });
+  for (const FrameReport& frame : frames) {
+    add_line(frame_json(frame), [](const auto& column) {
+      const Json& value = column.value();
+      return value.is_boolean() ? std::string(value.template get<bool>() ? "1" : "0") : value.dump();
+    });
+  }
+  return text;
+}
+
+}  // namespace surefield

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <spdlog/logger.h>
+
+#include <vector>
+
+#include "engine/slam/slam.h"
+#include "engine/sources/dataset.h"
+
+namespace surefield {
+
+/// What is known of a run when it begins.
+struct RunStart {
+  const Dataset& dataset;
+  const SlamSettings& settings;
+  Intrinsics intrinsics;  ///< of the frames that are fed
+  int frames = 0;         ///< how many there are to feed
+  spdlog::logger& log;
+};
+
+/// What may watch a run while it goes on, and steer it. All calls come from the thread that runs SLAM.
+class RunObserver {
+ public:
+  virtual ~RunObserver() = default;
+
+  /// Before the first frame; what `start` refers to outlives the run.
+  virtual void begin(const RunStart&) {}
+  /// Before each frame; may wait, as long as the run is not interrupted, and change settings.
+  virtual void before_frame(Slam&) {}
+  /// A frame was fed.
+  virtual void fed(const Frame&, const Slam&, const FrameReport&) {}
+  /// There will be no more frames, and the results have been saved.
+  virtual void finished(const Slam&) {}
+};
+
+/// Those that watch a run.
+using RunObservers = std::vector<RunObserver*>;
+
+}  // namespace surefield

@@ -1,0 +1,89 @@
+#pragma once
+
+#include <filesystem>
+#include <opencv2/core.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "engine/io/images.h"
+#include "engine/sources/dataset.h"
+#include "engine/sources/depth_registration.h"
+
+namespace surefield {
+
+/// Where one frame is stored.
+struct StoredFrame {
+  double timestamp = 0;  ///< seconds
+  std::filesystem::path colour;
+  std::filesystem::path depth;
+  std::optional<double> depth_timestamp = std::nullopt;  ///< seconds, where the depth image has its own
+};
+
+/// What a reader finds out about a sequence of image files.
+struct StoredSequence {
+  std::string name;
+  std::string format;
+  Intrinsics intrinsics;
+  std::vector<double> distortion;  ///< OpenCV's k1 k2 p1 p2 k3; empty where the images have none
+  DepthEncoding depth_encoding;
+  std::optional<DepthRegistration>
+      registration;                              ///< where the depth camera is another than the colour camera
+  bool resize_colour = false;                    ///< whether colour is averaged down to the depth's size
+  Pose tracked_to_reference = Pose::Identity();  ///< see Dataset::tracked_to_reference
+  std::vector<StoredFrame> frames;
+  std::optional<Trajectory> ground_truth;
+  std::vector<std::string> warnings;
+};
+
+/// A dataset of one colour and one depth file per frame; all readers of such layouts end here.
+class FileDataset : public Dataset {
+ public:
+  /// `sequence` has at least one frame.
+  explicit FileDataset(StoredSequence sequence);
+
+  std::string name() const override { return sequence_.name; }
+  std::string format() const override { return sequence_.format; }
+  int size() const override { return static_cast<int>(sequence_.frames.size()); }
+  Intrinsics intrinsics() const override { return sequence_.intrinsics; }
+  double depth_unit() const override { return sequence_.depth_encoding.unit; }
+  double timestamp(int i) const override {
+    return sequence_.frames.at(static_cast<std::size_t>(i)).timestamp;
+  }
+  double depth_timestamp(int i) const override {
+    return sequence_.frames.at(static_cast<std::size_t>(i)).depth_timestamp.value_or(timestamp(i));
+  }
+  LoadedFrame load(int i) const override;
+  const Trajectory* ground_truth() const override;
+  Pose tracked_to_reference() const override { return sequence_.tracked_to_reference; }
+  std::vector<std::string> warnings() const override { return sequence_.warnings; }
+
+ private:
+  cv::Mat load_colour(const std::filesystem::path& file) const;
+  cv::Mat load_depth(const std::filesystem::path& file) const;
+  void undistort(Frame& frame) const;
+
+  StoredSequence sequence_;
+  cv::Mat undistortion_x_;  ///< for each undistorted pixel the place in the stored image; empty without
+                            ///< distortion
+  cv::Mat undistortion_y_;
+};
+
+/// How a numbered file is named: `prefix`, six digits, `suffix`.
+struct NumberedName {
+  std::string prefix;
+  std::string suffix;
+};
+
+/// The frames of a folder of numbered images, from the lowest to the highest number among the colour images;
+/// a gap becomes a frame that fails to load. The time stamp is the number, in seconds.
+std::vector<StoredFrame> numbered_frames(const std::filesystem::path& folder, const NumberedName& colour,
+                                         const NumberedName& depth);
+
+/// The size of the first depth image that can be read. Throws InputError where there is none.
+cv::Size stored_size(const std::vector<StoredFrame>& frames);
+
+/// Throws InputError, naming `file`, where an image has not the size of the calibration.
+void require_size(const std::filesystem::path& file, const cv::Mat& image, const Intrinsics& expected);
+
+}  // namespace surefield

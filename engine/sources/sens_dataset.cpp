@@ -1,0 +1,78 @@
+// A ScanNet recording that was not exported: one .sens file, given itself or by the folder that holds it.
+#include <fmt/format.h>
+
+#include <utility>
+
+#include "engine/sources/layouts.h"
+#include "engine/sources/sens_file.h"
+#include "engine/types/error.h"
+
+namespace surefield {
+
+namespace {
+
+constexpr const char* kExtension = ".sens";
+
+std::vector<std::filesystem::path> sens_files(const std::filesystem::path& path) {
+  std::vector<std::filesystem::path> files;
+  if (!std::filesystem::is_directory(path)) {
+    if (path.extension() == kExtension) files.push_back(path);
+    return files;
+  }
+  for (const auto& entry : std::filesystem::directory_iterator(path)) {
+    if (entry.path().extension() == kExtension) files.push_back(entry.path());
+  }
+  return files;
+}
+
+class SensDataset : public Dataset {
+ public:
+  explicit SensDataset(SensFile sens) : sens_(std::move(sens)) {
+    for (std::size_t i = 0; i < sens_.frames.size(); ++i) {
+      truth_.push_back({static_cast<double>(i), sens_.frames[i].camera_to_world});
+    }
+  }
+
+  std::string name() const override { return sens_.file.stem().string(); }
+  std::string format() const override { return "scannet"; }
+  int size() const override { return static_cast<int>(sens_.frames.size()); }
+  Intrinsics intrinsics() const override { return sens_.depth; }
+  double depth_unit() const override { return sens_.depth_unit; }
+  double timestamp(int i) const override { return i; }
+  const Trajectory* ground_truth() const override { return &truth_; }
+
+  LoadedFrame load(int i) const override {
+    try {
+      return {read_sens_frame(sens_, i), ""};
+    } catch (const InputError& error) {
+      return {std::nullopt, error.what()};
+    }
+  }
+
+  std::vector<std::string> warnings() const override {
+    if (sens_.frames.size() == sens_.promised) return {};
+    return {fmt::format("{} ends after {} of {} frames; download it again for the others",
+                        sens_.file.string(), sens_.frames.size(), sens_.promised)};
+  }
+
+ private:
+  SensFile sens_;
+  Trajectory truth_;
+};
+
+}  // namespace
+
+bool is_sens(const std::filesystem::path& path) {
+  // Beside an exported folder the file may remain; the images are faster to read.
+  return !is_scannet(path) && !sens_files(path).empty();
+}
+
+std::unique_ptr<Dataset> open_sens(const std::filesystem::path& path) {
+  const auto files = sens_files(path);
+  if (files.size() > 1) {
+    throw InputError(path, fmt::format("holds {} .sens files; give the path of one of them", files.size()));
+  }
+  return std::make_unique<SensDataset>(read_sens_file(files.front()));
+}
+
+}  // namespace surefield

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <filesystem>
+#include <stdexcept>
+#include <string>
+
+namespace surefield {
+
+/// What every exception of this library derives from. `what()` is one line that names the thing and the way
+/// out.
+class Error : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// Something the user gave is missing, corrupt or wrong: a file, a folder, a key, a value. The message is one
+/// clear line that names the thing and says what to do about it; a program prints it and exits with a
+/// non-zero code.
+class InputError : public Error {
+ public:
+  explicit InputError(const std::string& message) : Error(message) {}
+
+  /// "file: problem"
+  InputError(const std::filesystem::path& file, const std::string& problem)
+      : Error(file.string() + ": " + problem) {}
+
+  /// "file:line: problem"; `line` counts from 1.
+  InputError(const std::filesystem::path& file, int line, const std::string& problem)
+      : Error(file.string() + ":" + std::to_string(line) + ": " + problem) {}
+};
+
+/// A failure of the Vulkan device or its driver.
+class DeviceError : public Error {
+ public:
+  enum class Kind { NoDevice, MissingFeature, OutOfMemory, DeviceLost, Limit, Driver };
+
+  DeviceError(Kind kind, const std::string& message) : Error(message), kind_(kind) {}
+  Kind kind() const { return kind_; }
+
+ private:
+  Kind kind_;
+};
+
+}  // namespace surefield

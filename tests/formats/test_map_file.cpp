@@ -1,0 +1,98 @@
+#include "engine/formats/map_file.h"
+
+#include "engine/formats/gaussian_order.h"
+#include "engine/formats/ply_header.h"
+#include "engine/formats/ply_records.h"
+#include "engine/io/files.h"
+#include "tests/formats/clouds.h"
+#include "tests/support/input_files.h"
+
+using namespace surefield;
+using test::contains;
+using test::input_error;
+using test::random_cloud;
+using test::TemporaryFolder;
+
+TEST_CASE("maps are read in the format of their content and written in that of their name") {
+  const TemporaryFolder folder;
+  const GaussianCloud cloud = random_cloud(5, 2);
+  for (const char* name : {"map.ply", "map.spz", "map.compressed.ply"}) {
+    write_map(folder / name, cloud);
+    CHECK(read_map(folder / name).cloud.size() == 5);
+    std::filesystem::rename(folder / name, folder / "map.unknown");
+    CHECK(read_map(folder / "map.unknown").cloud.sh_degree == 2);
+  }
+  write_map(folder / "map.glb", cloud);
+  CHECK(read_file(folder / "map.glb").starts_with("glTF"));
+  CHECK(contains(input_error([&] { write_map(folder / "map.png", cloud); }),
+                 "map.png: has no ending of a map format; name it .ply, .compressed.ply, .spz or .glb"));
+  CHECK(contains(input_error([&] { read_map(folder / "map.glb"); }), "map.glb: is no PLY file"));
+  CHECK(contains(input_error([&] { read_map(folder.write("a.spz", "hello")); }), "is no SPZ file"));
+  CHECK(contains(input_error([&] { read_map(folder.write("a.ply", "hello")); }), "is no PLY file"));
+  CHECK(contains(input_error([&] { read_map(folder / "none.ply"); }), "no such file"));
+}
+
+TEST_CASE("a point cloud has the centres, colours and opacities of the Gaussians that are finite") {
+  const TemporaryFolder folder;
+  GaussianCloud cloud = random_cloud(4, 1);
+  cloud.sh[0] = -1;                                   // red 0.218
+  cloud.sh[1] = 9;                                    // green beyond white
+  cloud.sh[2] = -9;                                   // blue below black
+  cloud.opacity_logits[3] = std::log(0.25f / 0.75f);  // a quarter
+  cloud.means[1].z() = std::numeric_limits<float>::infinity();
+  write_map(folder / "points.ply", cloud, MapFormat::Points);
+  const std::filesystem::path file = folder / "points.ply";
+  const PlyHeader header = read_ply_header(file);
+  REQUIRE(header.vertices().count == 3);
+  PlyRecordReader reader(file, header);
+  PlyRecord record;
+  reader.next(header.vertices(), record);
+  CHECK(record.values[0] == cloud.means[0].x());
+  CHECK(record.values[2] == cloud.means[0].z());
+  CHECK(std::vector<double>(record.values.begin() + 3, record.values.begin() + 6) ==
+        std::vector<double>{56, 255, 0});
+  reader.next(header.vertices(), record);
+  CHECK(record.values[1] == cloud.means[2].y());
+  reader.next(header.vertices(), record);
+  CHECK(record.values[6] == doctest::Approx(0.25));
+  CHECK(header.vertices().properties[6].name == "opacity");
+  write_map(file, {}, MapFormat::Points);
+  CHECK(read_ply_header(file).vertices().count == 0);
+}
+
+TEST_CASE("along the Morton curve, x goes before y and y before z, and nothing is lost") {
+  GaussianCloud cloud;
+  cloud.resize(8);
+  for (std::size_t i = 0; i < 8; ++i)  // the corners of a box, from the last to the first
+    cloud.means[i] = {i & 1 ? 0.0f : 2.0f, i & 2 ? -1.0f : 1.0f, i & 4 ? 5.0f : 7.0f};
+  std::vector<std::size_t> order = finite_gaussians(cloud);
+  sort_along_morton_curve(cloud, order);
+  CHECK(order == std::vector<std::size_t>{7, 6, 5, 4, 3, 2, 1, 0});
+  CHECK(select(cloud, order).means[0] == cloud.means[7]);
+
+  const GaussianCloud many = random_cloud(2000, 0);
+  order = finite_gaussians(many);
+  const auto way = [&] {
+    float sum = 0;
+    for (std::size_t i = 1; i < order.size(); ++i)
+      sum += (many.means[order[i]] - many.means[order[i - 1]]).norm();
+    return sum;
+  };
+  const float before = way();
+  sort_along_morton_curve(many, order);
+  CHECK(way() < before / 4);
+  std::sort(order.begin(), order.end());
+  CHECK(order == finite_gaussians(many));
+}
+
+TEST_CASE("Gaussians with a value that is not finite, or without a rotation, are told apart") {
+  const float infinity = std::numeric_limits<float>::infinity();
+  GaussianCloud cloud = random_cloud(7, 1);
+  cloud.means[0].x() = infinity;
+  cloud.log_scales[1].y() = -infinity;
+  cloud.rotations[2].setZero();
+  cloud.rotations[3][3] = std::nanf("");
+  cloud.opacity_logits[4] = infinity;
+  cloud.sh[6 * 12 - 1] = infinity;  // the last of the sixth
+  CHECK(finite_gaussians(cloud) == std::vector<std::size_t>{6});
+}

@@ -1,0 +1,228 @@
+#include "tools/export/mesh_fusion.h"
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <cmath>
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+
+#include "engine/formats/glb.h"
+#include "engine/io/trajectory_file.h"
+#include "engine/types/error.h"
+#include "tools/results/run_configuration.h"
+#include "tools/results/run_folder.h"
+#include "tools/shared/command.h"
+#include "tools/shared/interrupt.h"
+#include "tools/shared/progress.h"
+
+namespace surefield {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr double kStampTolerance = 0.02;  // seconds, as between estimates and truth
+constexpr float kLeastOpacity = 0.9f;     // of a rendered pixel whose depth is a surface's
+
+/// A frame to fuse: its index in the dataset, and its camera.
+struct FusionView {
+  int index = 0;
+  Camera camera;
+};
+
+/// What the frames are taken from.
+struct Input {
+  std::optional<RunFolder> run;
+  std::unique_ptr<Dataset> dataset;
+  std::vector<FusionView> views;
+  double depth_max = 0;  ///< metres
+};
+
+/// Images to fuse; `valid` is false where the frame cannot be read.
+struct FusionImages {
+  bool valid = false;
+  std::vector<float> depth;
+  std::vector<float> colour;
+};
+
+const StampedPose* nearest_pose(const Trajectory& trajectory, double timestamp) {
+  const StampedPose* nearest = nullptr;
+  for (const StampedPose& pose : trajectory) {
+    if (!pose.is_finite() || std::abs(pose.timestamp - timestamp) > kStampTolerance) continue;
+    if (nearest && std::abs(nearest->timestamp - timestamp) <= std::abs(pose.timestamp - timestamp)) continue;
+    nearest = &pose;
+  }
+  return nearest;
+}
+
+/// All frames of the dataset that the trajectory has a pose for.
+std::vector<FusionView> views_along(const Trajectory& trajectory, const Dataset& dataset,
+                                    const Intrinsics& intrinsics) {
+  std::vector<FusionView> views;
+  for (int i = 0; i < dataset.size(); ++i) {
+    const StampedPose* pose = nearest_pose(trajectory, dataset.timestamp(i));
+    if (pose) views.push_back({i, {intrinsics, pose->camera_to_world.inverse()}});
+  }
+  return views;
+}
+
+Trajectory read_poses(const std::string& where, const Dataset& dataset) {
+  if (where != "true") return of_tracked_camera(read_trajectory(where), dataset);
+  if (!dataset.ground_truth()) throw InputError("--trajectory true: this dataset has no ground truth");
+  return of_tracked_camera(*dataset.ground_truth(), dataset);
+}
+
+/// The frames of a run that were not lost, at its poses.
+std::vector<FusionView> views_of_run(const RunFolder& run, const Dataset& dataset) {
+  const std::vector<QualityView> all = views_of(run, dataset);
+  std::vector<FusionView> views;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    if (!run.metrics["per_frame"][i].value("lost", false)) views.push_back({all[i].index, all[i].camera});
+  }
+  return views;
+}
+
+double depth_limit(const MeshOptions& options, const Input& input) {
+  if (options.depth_max > 0) return options.depth_max;
+  if (input.run && input.run->number("/dataset/depth_max_m") > 0) {
+    return input.run->number("/dataset/depth_max_m");
+  }
+  SlamSettings settings;
+  load_settings(settings, RunOptions(), input.dataset->format());
+  return settings.depth_max;
+}
+
+void check(const MeshOptions& options) {
+  const std::string ending = std::filesystem::path(options.out).extension().string();
+  if (ending != ".ply" && ending != ".glb")
+    throw InputError(options.out, "has no ending of a mesh format; name it .ply or .glb");
+  if (options.run.empty() && options.source == MeshSource::Rendered) {
+    throw InputError("rendered depth needs the map of a run: give --run, or --source sensor");
+  }
+  if (options.source == MeshSource::Rendered && options.trajectory == "true") {
+    throw InputError(
+        "a run's map has a world frame of its own, in which the true poses look elsewhere; "
+        "leave --trajectory out, or give --source sensor");
+  }
+  if (options.run.empty() && (options.dataset.empty() || options.trajectory.empty())) {
+    throw InputError("without --run, fusing needs --dataset and --trajectory");
+  }
+}
+
+Input open_input(const MeshOptions& options) {
+  check(options);
+  Input input;
+  if (!options.run.empty()) {
+    input.run = read_run(options.run);
+    input.dataset = open_dataset_of(*input.run, options.dataset);
+  } else {
+    input.dataset = open_dataset(options.dataset, options.format);
+  }
+  input.depth_max = depth_limit(options, input);
+  const bool rendered = options.source == MeshSource::Rendered;
+  const double scale = rendered ? input.run->number("/dataset/scale") : 1;
+  const Intrinsics intrinsics = input.dataset->intrinsics().scaled(scale);
+  const std::vector<FusionView> views =
+      options.trajectory.empty()
+          ? views_of_run(*input.run, *input.dataset)
+          : views_along(read_poses(options.trajectory, *input.dataset), *input.dataset, intrinsics);
+  for (std::size_t i = 0; i < views.size(); i += static_cast<std::size_t>(options.stride)) {
+    input.views.push_back({views[i].index, {intrinsics, views[i].camera.world_to_camera}});
+  }
+  if (input.views.empty()) throw InputError("no frame has a pose; do the time stamps match?");
+  return input;
+}
+
+/// Depth and colour of the map. Depth is the median one: where surfaces lie behind each other, the mean falls
+/// between them.
+FusionImages rendered_images(const SplatEngine& engine, const FusionView& view, double depth_max) {
+  RenderImages images = engine.render(view.camera);
+  for (std::size_t i = 0; i < images.depth_median.size(); ++i) {
+    float& z = images.depth_median[i];
+    if (images.opacity[i] < kLeastOpacity || z > depth_max) z = 0;
+  }
+  return {true, std::move(images.depth_median), std::move(images.colour)};
+}
+
+FusionImages sensor_images(const Dataset& dataset, const FusionView& view, double depth_max) {
+  const LoadedFrame loaded = dataset.load(view.index);
+  if (!loaded.frame) {
+    fmt::print(stderr, "skipped: frame {}: {}\n", view.index, loaded.problem);
+    return {};
+  }
+  FusionImages images{true, {}, {}};
+  for (int v = 0; v < loaded.frame->depth.rows; ++v) {
+    const float* depth = loaded.frame->depth.ptr<float>(v);
+    const uint8_t* colour = loaded.frame->colour.ptr<uint8_t>(v);
+    for (int u = 0; u < loaded.frame->depth.cols; ++u) {
+      images.depth.push_back(depth[u] <= depth_max ? depth[u] : 0);
+    }
+    for (int i = 0; i < 3 * loaded.frame->colour.cols; ++i) {
+      images.colour.push_back(static_cast<float>(colour[i]) / 255);
+    }
+  }
+  return images;
+}
+
+/// Fuses view after view until the last one or an interruption; returns how many.
+int integrate(TsdfVolume& volume, const Input& input,
+              const std::function<FusionImages(const FusionView&)>& take) {
+  CountProgress progress("frames fused", static_cast<int>(input.views.size()));
+  int fused = 0;
+  int done = 0;
+  for (const FusionView& view : input.views) {
+    if (interrupted()) break;
+    const FusionImages images = take(view);
+    if (images.valid) {
+      volume.integrate({view.camera, images.depth, images.colour});
+      ++fused;
+    }
+    progress.reached(++done);
+  }
+  return fused;
+}
+
+int integrate_source(TsdfVolume& volume, const Input& input, const MeshOptions& options) {
+  if (options.source == MeshSource::Sensor) {
+    return integrate(volume, input, [&](const FusionView& view) {
+      return sensor_images(*input.dataset, view, input.depth_max);
+    });
+  }
+  SplatEngine engine(options.engine);
+  assign_map(engine, *input.run);
+  return integrate(volume, input,
+                   [&](const FusionView& view) { return rendered_images(engine, view, input.depth_max); });
+}
+
+}  // namespace
+
+int fuse_mesh(const MeshOptions& options) {
+  catch_interrupts();
+  const Input input = open_input(options);
+  TsdfVolume volume(options.fusion);
+  const Clock::time_point start = Clock::now();
+  const int fused = integrate_source(volume, input, options);
+  const TriangleMesh mesh = volume.extract();
+  const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
+  if (mesh.triangles.empty()) {
+    if (interrupted()) return kInterrupted;
+    throw InputError("no surface was found: no valid depth within " + fmt::format("{}", input.depth_max) +
+                     " m in any frame; is the depth scale of the dataset right?");
+  }
+  if (std::filesystem::path(options.out).extension() == ".glb") {
+    write_glb(options.out, mesh);
+  } else {
+    write_mesh(options.out, mesh);
+  }
+  fmt::print("frames fused     {} of {}, {:.1f} s\n", fused, input.views.size(), seconds);
+  fmt::print("distance field   {} blocks, {:.1f} MB\n", volume.blocks(),
+             static_cast<double>(volume.bytes()) / 1e6);
+  fmt::print("mesh             {} vertices, {} triangles: {}\n", mesh.vertices.size(), mesh.triangles.size(),
+             options.out);
+  return interrupted() ? kInterrupted : kSuccess;
+}
+
+}  // namespace surefield

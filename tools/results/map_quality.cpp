@@ -1,0 +1,140 @@
+#include "tools/results/map_quality.h"
+
+#include <fmt/format.h>
+
+#include <opencv2/core.hpp>
+
+#include "engine/eval/image_metrics.h"
+#include "engine/slam/exposure.h"
+#include "engine/sources/frame_stream.h"
+#include "tools/shared/interrupt.h"
+
+namespace surefield {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// The scores of one frame.
+struct FrameScores {
+  double psnr = 0;
+  double psnr_same_exposure = 0;
+  double ssim = 0;
+  std::optional<double> depth_l1;
+  std::optional<double> lpips;
+};
+
+/// What a screen would show: displays clamp.
+cv::Mat clamped(const cv::Mat& colour) {
+  return cv::max(0.0f, cv::min(1.0f, colour));
+}
+
+/// The render with the frame's exposure instead of the map's; as it is where that cannot be told.
+cv::Mat at_exposure_of(const Frame& frame, const RenderImages& images, const cv::Mat& rendered,
+                       double depth_max) {
+  const auto gains = fit_gains(frame, images, depth_max);
+  if (!gains) return rendered;
+  cv::Mat result;
+  cv::divide(rendered, cv::Scalar((*gains)[0], (*gains)[1], (*gains)[2]), result);
+  return result;
+}
+
+FrameScores score(const QualityInput& input, const Camera& camera, const Frame& frame) {
+  RenderImages images = input.render(camera);
+  const cv::Mat colour(images.height, images.width, CV_32FC3, images.colour.data());
+  const cv::Mat rendered = clamped(colour);
+  const cv::Mat depth(images.height, images.width, CV_32FC1, images.depth_normalised.data());
+  cv::Mat truth;
+  frame.colour.convertTo(truth, CV_32FC3, 1.0 / 255);
+  FrameScores scores{psnr(rendered, truth),
+                     psnr(clamped(at_exposure_of(frame, images, colour, input.depth_max)), truth),
+                     ssim(rendered, truth), depth_l1(depth, frame.depth, input.depth_max), std::nullopt};
+  if (input.lpips) scores.lpips = input.lpips->distance(rendered, truth);
+  return scores;
+}
+
+/// Adds up the scores of frames.
+class ScoreSum {
+ public:
+  void add(const FrameScores& scores) {
+    ++sum_.frames;
+    sum_.psnr += scores.psnr;
+    sum_.psnr_same_exposure += scores.psnr_same_exposure;
+    sum_.ssim += scores.ssim;
+    add(sum_.lpips, scores.lpips);
+    add(sum_.depth_l1, scores.depth_l1);
+    depth_frames_ += scores.depth_l1 ? 1 : 0;
+  }
+
+  ImageScores mean() const {
+    ImageScores mean = sum_;
+    if (sum_.frames == 0) return mean;
+    mean.psnr /= sum_.frames;
+    mean.psnr_same_exposure /= sum_.frames;
+    mean.ssim /= sum_.frames;
+    if (mean.lpips) *mean.lpips /= sum_.frames;
+    if (mean.depth_l1) *mean.depth_l1 /= depth_frames_;
+    return mean;
+  }
+
+ private:
+  static void add(std::optional<double>& sum, const std::optional<double>& value) {
+    if (value) sum = sum.value_or(0) + *value;
+  }
+
+  ImageScores sum_;
+  int depth_frames_ = 0;
+};
+
+nlohmann::ordered_json scores_json(const ImageScores& scores) {
+  const auto number = [&](double value) { return scores.frames > 0 ? Json(value) : Json(nullptr); };
+  Json json = {{"frames", scores.frames},
+               {"psnr_db", number(scores.psnr)},
+               {"psnr_same_exposure_db", number(scores.psnr_same_exposure)},
+               {"ssim", number(scores.ssim)},
+               {"depth_l1_m", scores.depth_l1 ? Json(*scores.depth_l1) : Json(nullptr)}};
+  if (scores.lpips) json["lpips"] = *scores.lpips;
+  return json;
+}
+
+std::string scores_line(const char* title, const ImageScores& scores) {
+  std::string text = fmt::format("{:<16} PSNR {:.2f} dB (at each frame's exposure {:.2f}), SSIM {:.4f}",
+                                 title, scores.psnr, scores.psnr_same_exposure, scores.ssim);
+  if (scores.depth_l1) text += fmt::format(", depth L1 {:.2f} cm", 100 * *scores.depth_l1);
+  if (scores.lpips) text += fmt::format(", LPIPS {:.4f}", *scores.lpips);
+  return text + fmt::format("   ({} frames)\n", scores.frames);
+}
+
+}  // namespace
+
+std::optional<MapQuality> measure_map_quality(const QualityInput& input) {
+  ScoreSum all, held_out;
+  for (std::size_t i = 0; i < input.views.size(); ++i) {
+    if (interrupted()) return std::nullopt;
+    const QualityView& view = input.views[i];
+    const LoadedFrame loaded = input.dataset.load(view.index);
+    if (loaded.frame && view.camera.world_to_camera.matrix().allFinite()) {
+      const FrameScores scores = score(input, view.camera, resize_frame(*loaded.frame, input.scale));
+      all.add(scores);
+      if (!view.keyframe) held_out.add(scores);
+    }
+    if (input.progress) input.progress(i + 1);
+  }
+  const MapQuality quality{all.mean(), held_out.mean()};
+  return quality.all.frames > 0 ? std::optional(quality) : std::nullopt;
+}
+
+nlohmann::ordered_json quality_json(const std::optional<MapQuality>& quality) {
+  const MapQuality scores = quality.value_or(MapQuality{});
+  nlohmann::ordered_json json = scores_json(scores.all);
+  json["held_out"] = scores_json(scores.held_out);
+  return json;
+}
+
+std::string quality_table(const MapQuality& quality) {
+  std::string text = scores_line("images", quality.all);
+  if (quality.held_out.frames > 0) text += scores_line("no keyframes", quality.held_out);
+  return text;
+}
+
+}  // namespace surefield

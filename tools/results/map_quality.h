@@ -1,0 +1,59 @@
+#pragma once
+
+#include <functional>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "engine/eval/lpips.h"
+#include "engine/sources/dataset.h"
+#include "engine/types/render_images.h"
+
+namespace surefield {
+
+/// Means over frames of how the map's renders compare with the sensor's images.
+struct ImageScores {
+  int frames = 0;
+  double psnr = 0;                 ///< dB
+  double psnr_same_exposure = 0;   ///< dB, of renders that were brought to each frame's exposure
+  double ssim = 0;                 ///< up to 1
+  std::optional<double> depth_l1;  ///< metres; over the frames with valid depth, if any
+  std::optional<double> lpips;     ///< where a network was given
+};
+
+/// Scores of a run's map.
+struct MapQuality {
+  ImageScores all;
+  ImageScores held_out;  ///< of the frames that were no keyframes: the map was not optimised on them
+};
+
+/// A frame to compare: its index in the dataset, and its camera.
+struct QualityView {
+  int index = 0;
+  Camera camera;
+  bool keyframe = false;
+};
+
+/// What to compare, and how.
+struct QualityInput {
+  const Dataset& dataset;
+  std::vector<QualityView> views;
+  double scale = 1;                                     ///< of the images, as in FrameSelection
+  double depth_max = 0;                                 ///< metres
+  std::function<RenderImages(const Camera&)> render;    ///< of the map
+  Lpips* lpips = nullptr;                               ///< none: not measured
+  std::function<void(std::size_t)> progress = nullptr;  ///< told how many views are done
+};
+
+/// Renders the map at every view and compares it with the frame. Frames that cannot be read take no part.
+/// Stops without a result when the user interrupts; nullopt also where no frame could be compared.
+std::optional<MapQuality> measure_map_quality(const QualityInput& input);
+
+/// The scores as docs/evaluation.md describes them; numbers that do not exist are null.
+nlohmann::ordered_json quality_json(const std::optional<MapQuality>& quality);
+
+/// The same as lines for people.
+std::string quality_table(const MapQuality& quality);
+
+}  // namespace surefield

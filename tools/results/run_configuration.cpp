@@ -1,0 +1,61 @@
+#include "tools/results/run_configuration.h"
+
+#include <filesystem>
+
+#include "engine/config/built_in_configs.h"
+#include "engine/eval/depth_delay.h"
+#include "engine/synth/synthetic_dataset.h"
+#include "engine/types/error.h"
+
+namespace surefield {
+
+namespace {
+
+constexpr const char* kSynthetic = "synthetic";
+
+}  // namespace
+
+std::unique_ptr<Dataset> open_run_dataset(const RunOptions& options) {
+  if (options.dataset != kSynthetic)
+    return open_dataset(options.dataset, options.format, options.depth_delay.value_or(0));
+  if (options.format != "auto" && options.format != kSynthetic) {
+    throw InputError("--dataset synthetic has no files of the format " + options.format +
+                     "; leave --format out (a folder of that name is given as ./synthetic)");
+  }
+  gpu::DeviceOptions device;
+  device.selector = options.engine.device;
+  device.validate = options.engine.validate;
+  return std::make_unique<SyntheticDataset>(device);
+}
+
+RunOptions with_depth_delay(RunOptions options) {
+  if (options.depth_delay || options.dataset == kSynthetic) return options;
+  const auto open = [asked = options](double added) mutable {
+    asked.depth_delay = added;
+    return open_run_dataset(asked);
+  };
+  options.depth_delay = estimate_depth_delay(*open_run_dataset(options), open);
+  return options;
+}
+
+std::string dataset_path(const RunOptions& options) {
+  if (options.dataset == kSynthetic) return options.dataset;
+  const auto path = std::filesystem::weakly_canonical(options.dataset);
+  return (path.has_filename() ? path : path.parent_path()).string();
+}
+
+std::string load_settings(SlamSettings& settings, const RunOptions& options, const std::string& format) {
+  ConfigSchema schema;
+  settings.bind(schema);
+  const BuiltInFiles& built_in = built_in_configs();
+  if (!options.config.empty()) {
+    schema.load_file(options.config, built_in);
+  } else {
+    const std::string own = format + ".yaml";
+    schema.load_built_in(built_in.contains(own) ? own : "base.yaml", built_in);
+  }
+  for (const std::string& assignment : options.assignments) schema.set(assignment);
+  return schema.dump();
+}
+
+}  // namespace surefield

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "engine/slam/settings.h"
+#include "engine/sources/frame_stream.h"
+#include "tools/shared/picture_size.h"
+
+namespace surefield {
+
+/// What the user asks `surefield run` to do.
+struct RunOptions {
+  std::string dataset;  ///< a folder, or "synthetic" for the embedded sequence
+  std::string format = "auto";
+  std::optional<double> depth_delay;     ///< seconds, see open_dataset(); nullopt: estimated
+  std::string config;                    ///< a file; empty: the built-in one of the format
+  std::vector<std::string> assignments;  ///< "key=value", applied after the file
+  std::string out;                       ///< folder of the results
+  std::string map_format = "ply";        ///< one of run_map_formats()
+  FrameSelection selection;
+  EngineOptions engine;
+  bool quiet = false;
+  std::string film;  ///< file of a film of the run; empty: none
+  PictureSize film_size{1280, 720};
+  bool viewer = false;  ///< shows a window beside the run
+};
+
+/// Opens the dataset that the options name. Throws InputError; where the options say no delay of the depth
+/// images, it is none.
+std::unique_ptr<Dataset> open_run_dataset(const RunOptions& options);
+
+/// The options with the delay of the depth images estimated where they leave it open. Throws InputError.
+RunOptions with_depth_delay(RunOptions options);
+
+/// Where that dataset is, as it can be given to --dataset from any folder.
+std::string dataset_path(const RunOptions& options);
+
+/// Reads the settings that the options and the dataset's format ask for into `settings`; returns the
+/// effective configuration as YAML. Throws InputError.
+std::string load_settings(SlamSettings& settings, const RunOptions& options, const std::string& format);
+
+}  // namespace surefield

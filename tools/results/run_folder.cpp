@@ -1,0 +1,121 @@
+#include "tools/results/run_folder.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <limits>
+
+#include "engine/formats/map_file.h"
+#include "engine/io/files.h"
+#include "engine/io/trajectory_file.h"
+#include "engine/types/error.h"
+#include "tools/results/run_configuration.h"
+
+namespace surefield {
+
+namespace {
+
+constexpr const char* kSchema = "surefield-metrics";
+constexpr int kMetricsVersion = 1;
+
+nlohmann::json read_metrics(const std::filesystem::path& file) {
+  if (!std::filesystem::exists(file)) {
+    throw InputError(file, "no such file; is this a folder that surefield run has written?");
+  }
+  nlohmann::json json = nlohmann::json::parse(read_file(file), nullptr, /*allow_exceptions=*/false);
+  if (!json.is_object() || json.value("schema", nlohmann::json()) != kSchema) {
+    throw InputError(file, "is no metrics file of surefield run");
+  }
+  if (json.value("version", nlohmann::json()) != kMetricsVersion) {
+    throw InputError(file,
+                     fmt::format("has another version than {}; run the sequence again", kMetricsVersion));
+  }
+  if (!json.contains("per_frame") || !json["per_frame"].is_array()) {
+    throw InputError(file, "says nothing about its frames; run the sequence again");
+  }
+  return json;
+}
+
+}  // namespace
+
+std::filesystem::path RunFolder::map_file() const {
+  const bool compact =
+      !std::filesystem::exists(path / "map.ply") && std::filesystem::exists(path / "map.spz");
+  return path / (compact ? "map.spz" : "map.ply");
+}
+
+double RunFolder::number(const std::string& pointer) const {
+  const nlohmann::json::json_pointer at(pointer);
+  if (!metrics.contains(at) || !metrics[at].is_number()) return std::numeric_limits<double>::quiet_NaN();
+  return metrics[at].get<double>();
+}
+
+std::string RunFolder::text(const std::string& pointer) const {
+  const nlohmann::json::json_pointer at(pointer);
+  return metrics.contains(at) && metrics[at].is_string() ? metrics[at].get<std::string>() : "";
+}
+
+RunFolder read_run(const std::filesystem::path& folder) {
+  RunFolder run;
+  run.path = folder;
+  const auto whole = std::filesystem::weakly_canonical(folder);
+  run.name = (whole.has_filename() ? whole : whole.parent_path()).filename().string();
+  run.metrics = read_metrics(folder / "metrics.json");
+  run.trajectory = read_trajectory(folder / "trajectory.txt");
+  run.keyframes = read_trajectory(folder / "keyframes.txt");
+  run.configuration = read_file(folder / "config.yaml");
+  if (run.trajectory.size() != run.metrics["per_frame"].size()) {
+    throw InputError(folder / "trajectory.txt",
+                     fmt::format("has {} poses, but metrics.json {} frames; the files are of different runs",
+                                 run.trajectory.size(), run.metrics["per_frame"].size()));
+  }
+  return run;
+}
+
+SlamSettings settings_of(const RunFolder& run) {
+  SlamSettings settings;
+  load_settings(settings, {.config = (run.path / "config.yaml").string()}, "");
+  return settings;
+}
+
+void assign_map(SplatEngine& engine, const RunFolder& run) {
+  engine.set_depth_model(settings_of(run).depth_model);
+  engine.assign(read_map(run.map_file()).cloud);
+}
+
+std::unique_ptr<Dataset> open_dataset_of(const RunFolder& run, const std::string& instead) {
+  RunOptions options;
+  options.dataset = instead.empty() ? run.text("/dataset/path") : instead;
+  if (options.dataset.empty()) {
+    throw InputError(run.path / "metrics.json", "does not name the dataset; give it with --dataset");
+  }
+  if (instead.empty()) options.format = run.text("/dataset/format");
+  const double depth_delay = run.number("/dataset/depth_delay_s");
+  if (std::isfinite(depth_delay)) options.depth_delay = depth_delay;
+  return open_run_dataset(options);
+}
+
+std::vector<QualityView> views_of(const RunFolder& run, const Dataset& dataset) {
+  const Intrinsics intrinsics = dataset.intrinsics().scaled(run.number("/dataset/scale"));
+  if (intrinsics.width != run.number("/dataset/width") ||
+      intrinsics.height != run.number("/dataset/height")) {
+    throw InputError(run.path,
+                     "was made from images of another size than those of dataset " + dataset.name());
+  }
+  const Trajectory tracked = of_tracked_camera(run.trajectory, dataset);
+  std::vector<QualityView> views;
+  for (std::size_t i = 0; i < tracked.size(); ++i) {
+    const nlohmann::json& frame = run.metrics["per_frame"][i];
+    QualityView view{frame.value("index", -1),
+                     {intrinsics, tracked[i].camera_to_world.inverse()},
+                     frame.value("keyframe", false)};
+    if (view.index < 0 || view.index >= dataset.size()) {
+      throw InputError(run.path, fmt::format("has a frame {}, but dataset {} has {} frames", view.index,
+                                             dataset.name(), dataset.size()));
+    }
+    views.push_back(view);
+  }
+  return views;
+}
+
+}  // namespace surefield

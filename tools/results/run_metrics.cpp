@@ -1,0 +1,102 @@
+// metrics.json; the schema is described in docs/evaluation.md.
+#include <sys/resource.h>
+
+#include "engine/session/frame_table.h"
+#include "engine/types/build_info.h"
+#include "engine/types/version.h"
+#include "tools/results/run_record.h"
+#include "tools/results/trajectory_report.h"
+
+namespace surefield {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr int kSchemaVersion = 1;
+
+/// The most host memory that this process has used, bytes.
+double host_peak_bytes() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return 1024.0 * static_cast<double>(usage.ru_maxrss);  // Linux counts in KiB
+}
+
+const char* name(RunEnd end) {
+  switch (end) {
+    case RunEnd::Completed:
+      return "completed";
+    case RunEnd::Interrupted:
+      return "interrupted";
+    default:
+      return "failed";
+  }
+}
+
+Json dataset_json(const RunRecord& record) {
+  return {{"name", record.dataset},
+          {"path", record.dataset_path},
+          {"format", record.format},
+          {"width", record.intrinsics.width},
+          {"height", record.intrinsics.height},
+          {"start", record.selection.start},
+          {"stride", record.selection.stride},
+          {"scale", record.selection.scale},
+          {"depth_max_m", record.depth_max},
+          {"depth_delay_s", record.depth_delay}};
+}
+
+Json frames_json(const RunRecord& record) {
+  return {
+      {"total", record.selected},
+      {"fed", record.frames.size()},
+      {"skipped", record.skipped.size()},
+      {"lost", count_frames(record.frames, [](const FrameReport& frame) { return frame.lost; })},
+      {"retried", count_frames(record.frames, [](const FrameReport& frame) { return frame.retries > 0; })},
+      {"keyframes", record.keyframes.size()}};
+}
+
+Json time_json(const RunRecord& record) {
+  const IterationTotal tracking = tracking_total(record.frames);
+  const IterationTotal mapping = mapping_total(record.frames);
+  return {{"setup_s", record.setup_seconds},
+          {"total_s", record.seconds},
+          {"frames_per_second", record.frames_per_second()},
+          {"tracking_s", tracking.seconds},
+          {"tracking_iterations", tracking.iterations},
+          {"tracking_ms_per_iteration", tracking.milliseconds_each()},
+          {"mapping_s", mapping.seconds},
+          {"mapping_iterations", mapping.iterations},
+          {"mapping_ms_per_iteration", mapping.milliseconds_each()}};
+}
+
+}  // namespace
+
+std::string metrics_json(const RunRecord& record) {
+  Json json;
+  json["schema"] = "surefield-metrics";
+  json["version"] = kSchemaVersion;
+  json["status"] = name(record.end);
+  json["error"] = record.error.empty() ? Json(nullptr) : Json(record.error);
+  json["program"] = {{"version", kVersion}, {"commit", kGitCommit}};
+  json["device"] = {{"name", record.engine.device}, {"driver", record.engine.driver}};
+  json["dataset"] = dataset_json(record);
+  json["frames"] = frames_json(record);
+  json["time"] = time_json(record);
+  json["map"] = {{"gaussians", record.gaussians()},
+                 {"megabytes", static_cast<double>(record.engine.map_bytes) / kMegabyte}};
+  json["memory"] = {{"device_peak_mb", static_cast<double>(record.engine.device_peak_bytes) / kMegabyte},
+                    {"host_peak_mb", host_peak_bytes() / kMegabyte}};
+  json["trajectory"] = trajectory_json(record.accuracy, record.keyframe_accuracy);
+  json["images"] = quality_json(record.images);
+  json["skipped"] = Json::array();
+  for (const SkippedFrame& frame : record.skipped) {
+    json["skipped"].push_back({{"index", frame.index}, {"reason", frame.reason}});
+  }
+  json["per_frame"] = Json::array();
+  for (const FrameReport& frame : record.frames) json["per_frame"].push_back(frame_json(frame));
+  // File names in reasons may be in any encoding.
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace surefield

@@ -1,0 +1,74 @@
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "engine/eval/trajectory_metrics.h"
+#include "engine/slam/slam.h"
+#include "engine/sources/frame_stream.h"
+#include "tools/results/map_quality.h"
+
+namespace surefield {
+
+inline constexpr double kMegabyte = 1e6;  ///< bytes
+
+/// How a run ended.
+enum class RunEnd { Completed, Interrupted, Failed };
+
+/// Everything that is known about a run when it has ended.
+struct RunRecord {
+  RunEnd end = RunEnd::Completed;
+  std::string error;  ///< why it failed
+  std::string dataset;
+  std::string dataset_path;  ///< where it was read from, absolute; or "synthetic"
+  std::string format;
+  double depth_delay = 0;  ///< seconds, added to the stamps of depth images
+  FrameSelection selection;
+  int selected = 0;       ///< frames that were to be fed
+  Intrinsics intrinsics;  ///< of the frames fed
+  double depth_max = 0;   ///< metres
+  std::vector<SkippedFrame> skipped;
+  std::vector<FrameReport> frames;  ///< those fed
+  Trajectory trajectory;            ///< one pose per frame fed, of the tracked camera
+  Trajectory keyframes;             ///< of the tracked camera
+  double setup_seconds = 0;         ///< opening the device, building its programs
+  double seconds = 0;               ///< from the first frame asked for to the last one done
+  EngineReport engine;
+  std::optional<TrajectoryMetrics> accuracy;  ///< where there is ground truth
+  std::optional<TrajectoryMetrics> keyframe_accuracy;
+  std::optional<MapQuality> images;
+
+  /// Gaussians in the final map.
+  uint32_t gaussians() const { return frames.empty() ? 0 : frames.back().gaussians; }
+  double frames_per_second() const { return seconds > 0 ? static_cast<double>(frames.size()) / seconds : 0; }
+};
+
+/// Iterations of one kind over a whole run.
+struct IterationTotal {
+  int iterations = 0;
+  double seconds = 0;
+
+  double milliseconds_each() const { return iterations > 0 ? 1000 * seconds / iterations : 0; }
+};
+
+/// All tracking, or all mapping, of a run.
+IterationTotal tracking_total(const std::vector<FrameReport>& frames);
+IterationTotal mapping_total(const std::vector<FrameReport>& frames);
+
+/// Number of frames for which `test` holds.
+template <typename Test>
+int count_frames(const std::vector<FrameReport>& frames, Test test) {
+  int count = 0;
+  for (const FrameReport& frame : frames) count += test(frame) ? 1 : 0;
+  return count;
+}
+
+/// metrics.json, as docs/evaluation.md describes it.
+std::string metrics_json(const RunRecord& record);
+
+/// The lines that the user reads at the end of a run.
+std::string run_summary(const RunRecord& record);
+
+}  // namespace surefield

@@ -1,0 +1,94 @@
+// surefield run: the options; the work is in run_session.
+#include <memory>
+
+#include "engine/formats/map_file.h"
+#include "tools/run/run_film.h"
+#include "tools/run/run_session.h"
+#include "tools/run/run_viewer.h"
+#include "tools/shared/command.h"
+
+namespace surefield {
+
+namespace {
+
+constexpr const char* kRunExamples =
+    "Writes into the folder of --out: trajectory.txt and keyframes.txt (TUM format, camera to world), "
+    "map.ply\n"
+    "(the Gaussians; map.spz with --map-format spz), metrics.json and frames.csv (docs/evaluation.md), "
+    "config.yaml (every setting as "
+    "used), log.txt.\n"
+    "Ctrl-C finishes the current frame and saves everything; a second Ctrl-C quits at once.\n"
+    "\n"
+    "Examples:\n"
+    "  surefield run --dataset synthetic --out out/demo\n"
+    "  surefield run --dataset rgbd_dataset_freiburg1_desk --out out/desk --frames 100 --scale 0.5\n"
+    "  surefield run --dataset Replica/room0 --out out/room0 --set tracking.renders=5 --set seed=2\n"
+    "  surefield run --dataset synthetic --out out/demo --film out/demo.mp4\n"
+    "  surefield run --dataset synthetic --out out/demo --viewer\n";
+
+/// What --format may be here: the embedded sequence has a format of its own.
+std::vector<std::string> run_formats() {
+  std::vector<std::string> formats = known_formats();
+  formats.push_back("synthetic");
+  return formats;
+}
+
+int run_watched(const RunOptions& options) {
+  std::optional<RunFilm> film;
+  RunObservers observers;
+  if (!options.film.empty()) observers.push_back(&film.emplace(options));
+  const int code = options.viewer ? run_with_viewer(options, observers) : run_session(options, observers);
+  return code == kSuccess && film && film->failed() ? kFailure : code;
+}
+
+}  // namespace
+
+void add_run(CLI::App& program, Action& action) {
+  auto options = std::make_shared<RunOptions>();
+  CLI::App* run =
+      program.add_subcommand("run", "Tracks the camera and builds the map of a recorded sequence");
+  run->add_option("--dataset", options->dataset,
+                  "Folder of the sequence (or a .sens file), or \"synthetic\" for the embedded one")
+      ->required();
+  run->add_option("--out", options->out, "Folder of the results; files of an earlier run are overwritten")
+      ->required();
+  run->add_option("--format", options->format, "Layout of the dataset")
+      ->check(CLI::IsMember(run_formats()))
+      ->capture_default_str();
+  run->add_option("--map-format", options->map_format,
+                  "How the map is stored: as 32-bit floats that any splat viewer opens, or compactly "
+                  "(docs/formats.md)")
+      ->check(CLI::IsMember(run_map_formats()))
+      ->capture_default_str();
+  run->add_option("--config", options->config,
+                  "YAML file, or the name of a built-in one; default: the built-in one of the format");
+  run->add_option("--set", options->assignments, "Sets one key, as in --set tracking.renders=5")
+      ->type_name("KEY=VALUE")
+      ->allow_extra_args(false)
+      ->take_all();
+  run->add_option("--frames", options->selection.frames, "Number of frames, at most; 0: all")
+      ->capture_default_str();
+  run->add_option("--start", options->selection.start, "Index of the first frame")->capture_default_str();
+  run->add_option("--stride", options->selection.stride, "Takes every so many frames")->capture_default_str();
+  run->add_option("--scale", options->selection.scale,
+                  "Size of the images relative to the originals, up to 1")
+      ->capture_default_str();
+  run->add_option("--depth-delay", options->depth_delay,
+                  "Seconds to add to the stamps of depth images that have their own (TUM) before they are "
+                  "paired with colour images; default: estimated from the edges of both");
+  run->add_option("--device", options->engine.device,
+                  "Number or part of the name of the device, see surefield devices; default: the best");
+  run->add_flag("--validate", options->engine.validate, "Runs under Vulkan's validation layer (slow)");
+  run->add_option("--film", options->film,
+                  "Films the run in the third person into this file, .mp4 or .avi, or a folder of PNGs "
+                  "(docs/viewer.md)");
+  add_size_option(*run, "--film-size", options->film_size, "Size of the film; default: 1280x720");
+  run->add_flag(
+      "--viewer", options->viewer,
+      "Shows the map while it grows, in a window; closing it does not end the run (docs/viewer.md)");
+  run->add_flag("--quiet", options->quiet, "Prints errors only");
+  run->footer(kRunExamples);
+  run->callback([options, &action] { action = [options] { return run_watched(*options); }; });
+}
+
+}  // namespace surefield

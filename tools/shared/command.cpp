@@ -1,0 +1,60 @@
+#include "tools/shared/command.h"
+
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <exception>
+#include <new>
+
+#include "engine/gpu/error.h"
+#include "engine/sources/dataset.h"
+#include "engine/types/error.h"
+
+namespace surefield {
+
+int exit_code_of_current_exception() {
+  try {
+    throw;
+  } catch (const InputError&) {
+    return kWrongInput;
+  } catch (const gpu::Error&) {
+    return kDeviceError;
+  } catch (...) {
+    return kFailure;
+  }
+}
+
+std::string describe_current_exception() {
+  try {
+    throw;
+  } catch (const std::bad_alloc&) {
+    return "out of memory; close other programs, or use fewer frames or a smaller --scale";
+  } catch (const std::exception& error) {
+    std::string message = error.what();
+    for (char& c : message) c = c == '\n' ? ' ' : c;
+    return message;
+  } catch (...) {
+    return "an unknown error";
+  }
+}
+
+void print_error(const std::string& message) {
+  fmt::print(stderr, "surefield: error: {}\n", message);
+}
+
+std::vector<std::string> known_formats() {
+  std::vector<std::string> formats = dataset_formats();
+  formats.insert(formats.begin(), "auto");
+  return formats;
+}
+
+int run_action(const Action& action) {
+  try {
+    return action();
+  } catch (...) {
+    print_error(describe_current_exception());
+    return exit_code_of_current_exception();
+  }
+}
+
+}  // namespace surefield

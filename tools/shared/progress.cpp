@@ -1,0 +1,86 @@
+#include "tools/shared/progress.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdio>
+
+#include "tools/shared/progress_line.h"
+
+namespace surefield {
+
+namespace {
+
+constexpr const char* kClearLine = "\r\x1b[K";
+
+}  // namespace
+
+double seconds_since(std::chrono::steady_clock::time_point start) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+Progress::Progress(int frames, bool quiet)
+    : frames_(std::max(1, frames)),
+      quiet_(quiet),
+      terminal_(isatty(STDERR_FILENO) == 1),
+      start_(std::chrono::steady_clock::now()) {
+  if (!quiet_ && terminal_) draw_bar("", static_cast<double>(done_) / frames_, numbers());
+}
+
+Progress::~Progress() {
+  if (!quiet_ && terminal_) fmt::print(stderr, "\n");
+}
+
+void Progress::fed(const FrameReport& report) {
+  last_ = report;
+  ++fed_;
+  if (done_ == 0) first_frame_seconds_ = seconds_since(start_);
+  advance();
+}
+
+void Progress::skipped(const std::string& reason) {
+  if (!quiet_) fmt::print(stderr, "{}skipped: {}\n", terminal_ ? kClearLine : "", reason);
+  advance();
+}
+
+void Progress::advance() {
+  ++done_;
+  if (quiet_) return;
+  if (terminal_) {
+    draw_bar("", static_cast<double>(done_) / frames_, numbers());
+  } else if (10 * done_ / frames_ != 10 * (done_ - 1) / frames_) {
+    fmt::print(stderr, "{}\n", numbers());
+  }
+}
+
+std::string Progress::numbers() const {
+  if (fed_ == 0) return fmt::format("{}/{}  first frame", done_, frames_);
+  return fmt::format("{}/{}  {:.2f} FPS  loss {:.4f}  {} Gaussians  ETA {}", done_, frames_,
+                     fed_ / seconds_since(start_), last_.tracking_loss, last_.gaussians, remaining());
+}
+
+std::string Progress::remaining() const {
+  if (done_ < 2) return "-";
+  const double each = (seconds_since(start_) - first_frame_seconds_) / (done_ - 1);
+  const int seconds = static_cast<int>(each * std::max(0, frames_ - done_) + 0.5);
+  return fmt::format("{}:{:02}", seconds / 60, seconds % 60);
+}
+
+CountProgress::CountProgress(std::string what, int total)
+    : what_(std::move(what)), total_(std::max(1, total)), terminal_(isatty(STDERR_FILENO) == 1) {}
+
+CountProgress::~CountProgress() {
+  if (terminal_) fmt::print(stderr, "{}", kClearLine);
+}
+
+void CountProgress::reached(int done) {
+  if (terminal_) {
+    fmt::print(stderr, "{}{}/{} {}", kClearLine, done, total_, what_);
+    std::fflush(stderr);
+  } else if (10 * done / total_ != 10 * (done - 1) / total_) {
+    fmt::print(stderr, "{}/{} {}\n", done, total_, what_);
+  }
+}
+
+}  // namespace surefield
