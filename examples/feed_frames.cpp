@@ -1,5 +1,6 @@
 // Feeds frames of one's own to SLAM and reads poses and map: what a robot's program does with its camera.
 #include <surefield/slam/slam.h>
+#include <surefield/types/error.h>
 #include <surefield/types/frame.h>
 #include <surefield/types/gaussian_cloud.h>
 

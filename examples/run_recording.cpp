@@ -4,6 +4,7 @@
 #include <surefield/slam/slam.h>
 #include <surefield/sources/dataset.h>
 #include <surefield/sources/frame_stream.h>
+#include <surefield/types/error.h>
 
 #include <cstdio>
 
