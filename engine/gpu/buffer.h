@@ -33,8 +33,10 @@ class Buffer {
   /// Changes places with another buffer of the same device; each keeps its name.
   void exchange_memory(Buffer& other) noexcept;
 
-  /// Copies host memory into the buffer at byte `offset`, or back; waits for the device.
+  /// Copies host memory into the buffer at byte `offset`: `data` may change at once, and the bytes are there
+  /// for all that is submitted or read back from here on (see StagingRing).
   void upload(const void* data, uint64_t offset, uint64_t bytes);
+  /// Copies from the buffer into host memory; waits for the device.
   void download(void* data, uint64_t offset, uint64_t bytes) const;
 
  private:

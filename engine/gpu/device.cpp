@@ -10,6 +10,9 @@
 #include "engine/gpu/error.h"
 #include "engine/gpu/pipeline_builder.h"
 #include "engine/gpu/pipeline_file.h"
+#include "engine/gpu/recording_pool.h"
+#include "engine/gpu/staging_ring.h"
+#include "engine/gpu/submission_queue.h"
 
 namespace surefield::gpu {
 
@@ -100,6 +103,7 @@ Device::Device(const DeviceOptions& options) {
                   fmt::format("{} cannot show windows: choose another --device", report_.name));
     create_logical_device(with_window);
     create_pipeline_builder(options.cache_folder);
+    create_submission(options.staging_bytes);
   } catch (...) {
     destroy();
     throw;
@@ -112,6 +116,10 @@ Device::~Device() {
 
 void Device::destroy() {
   pipeline_builder_.reset();
+  if (device_) vkDeviceWaitIdle(device_);
+  recordings_.reset();
+  staging_.reset();
+  submissions_.reset();
   if (device_) vkDestroyDevice(device_, nullptr);
   if (messenger_) {
     const auto destroy = reinterpret_cast<PFN_vkDestroyDebugUtilsMessengerEXT>(
@@ -130,6 +138,7 @@ void Device::create_logical_device(bool with_swapchain) {
 
   FeatureChain features;
   features.v12.scalarBlockLayout = VK_TRUE;
+  features.v12.timelineSemaphore = VK_TRUE;
   features.v13.synchronization2 = VK_TRUE;
   features.v13.subgroupSizeControl = VK_TRUE;
   features.v13.computeFullSubgroups = VK_TRUE;
@@ -166,29 +175,25 @@ void Device::finish_pipelines() {
   pipeline_builder_->wait();
 }
 
-void Device::submit_and_wait(VkCommandBuffer commands) {
-  VkCommandBufferSubmitInfo buffer{VK_STRUCTURE_TYPE_COMMAND_BUFFER_SUBMIT_INFO};
-  buffer.commandBuffer = commands;
-  VkSubmitInfo2 submit{VK_STRUCTURE_TYPE_SUBMIT_INFO_2};
-  submit.commandBufferInfoCount = 1;
-  submit.pCommandBufferInfos = &buffer;
-
-  const VkFenceCreateInfo fence_info{VK_STRUCTURE_TYPE_FENCE_CREATE_INFO};
-  VkFence fence = VK_NULL_HANDLE;
-  check(vkCreateFence(device_, &fence_info, nullptr, &fence), "creating a fence");
-  VkResult result = VK_SUCCESS;
-  {
-    std::lock_guard lock(queue_mutex_);
-    result = vkQueueSubmit2(queue_, 1, &submit, fence);
-  }
-  if (result == VK_SUCCESS) result = vkWaitForFences(device_, 1, &fence, VK_TRUE, UINT64_MAX);
-  vkDestroyFence(device_, fence, nullptr);
-  check(result, "running kernels");
+void Device::create_submission(uint64_t staging_bytes) {
+  submissions_ = std::make_unique<SubmissionQueue>(device_, queue_, live_counters_);
+  staging_ = std::make_unique<StagingRing>(*this, *submissions_, staging_bytes);
+  recordings_ = std::make_unique<RecordingPool>(device_, queue_family_, live_counters_);
 }
 
-uint32_t Device::memory_type(uint32_t type_bits, VkMemoryPropertyFlags flags) const {
-  for (uint32_t i = 0; i < memory_.memoryTypeCount; ++i)
-    if ((type_bits & (1u << i)) && (memory_.memoryTypes[i].propertyFlags & flags) == flags) return i;
+void Device::submit_and_wait(VkCommandBuffer commands) {
+  staging_->submit_and_wait(commands);
+}
+
+void Device::finish_uploads() {
+  staging_->finish_uploads();
+}
+
+uint32_t Device::memory_type(uint32_t type_bits, VkMemoryPropertyFlags flags,
+                             VkMemoryPropertyFlags preferred) const {
+  for (const VkMemoryPropertyFlags wanted : {flags | preferred, flags})
+    for (uint32_t i = 0; i < memory_.memoryTypeCount; ++i)
+      if ((type_bits & (1u << i)) && (memory_.memoryTypes[i].propertyFlags & wanted) == wanted) return i;
   throw Error(Error::Kind::MissingFeature, "the device has no memory of the kind that buffers need");
 }
 

@@ -13,6 +13,8 @@
 #include <string>
 #include <vector>
 
+#include "engine/gpu/live_counters.h"
+
 namespace surefield::gpu {
 
 /// How to choose and open a device.
@@ -27,6 +29,8 @@ struct DeviceOptions {
   bool force_descriptor_pool = false;
   /// Where what the driver compiles is kept between runs. Empty: user_cache_folder().
   std::filesystem::path cache_folder;
+  /// Host memory that uploads and downloads go through; larger ones go in pieces. Tests make it small.
+  uint64_t staging_bytes = 16 << 20;
   /// Instance extensions that windows need. Not empty: the queue also draws, and the device can have a
   /// swapchain; see WindowHandles.
   std::vector<std::string> window_extensions;
@@ -64,13 +68,17 @@ struct DeviceLimits {
 };
 
 class PipelineBuilder;
+class RecordingPool;
+class StagingRing;
+class SubmissionQueue;
 
 /// What a window needs of a device that was opened with window extensions, to present pictures with.
 struct WindowHandles {
   VkInstance instance = VK_NULL_HANDLE;
   VkPhysicalDevice physical = VK_NULL_HANDLE;
   VkDevice device = VK_NULL_HANDLE;
-  VkQueue queue = VK_NULL_HANDLE;  ///< no other thread may submit while the window uses it
+  VkQueue queue = VK_NULL_HANDLE;  ///< no other thread may submit, upload or download while the window uses
+                                   ///< it; uploads since the last submission are not there yet
   uint32_t queue_family = 0;
 };
 
@@ -80,7 +88,9 @@ struct PassTime {
   double milliseconds;
 };
 
-/// An open Vulkan device with one compute queue. Submission is serialised, so several threads may use it.
+/// An open Vulkan device with one compute queue. Several threads may use it: submission, staging memory and
+/// the objects that recorders take are guarded. A buffer, a pass or a recorder is used by one thread at a
+/// time.
 class Device {
  public:
   /// Opens the device that `options` select. Throws Error(NoDevice) or Error(MissingFeature).
@@ -96,16 +106,29 @@ class Device {
   uint32_t queue_family() const { return queue_family_; }
   PFN_vkCmdPushDescriptorSetKHR push_descriptor_set() const { return push_descriptor_set_; }
 
-  /// Submits a command buffer and waits until it has finished.
+  /// Submits a command buffer, behind all uploads so far, and waits until it has finished.
   void submit_and_wait(VkCommandBuffer commands);
+  /// Waits until all uploads so far have reached their buffers; else they do so with the next submission.
+  void finish_uploads();
+
+  /// What uploads and downloads of buffers go through, and what recorders record with.
+  StagingRing& staging() { return *staging_; }
+  RecordingPool& recordings() { return *recordings_; }
 
   /// Has a pipeline built by another thread: `build` is called with the cache to build it with.
   std::shared_future<VkPipeline> build_pipeline(std::function<VkPipeline(VkPipelineCache)> build);
   /// Waits until all pipelines have been built, so that none is waited for later.
   void finish_pipelines();
 
-  /// Index of a memory type among `type_bits` with all of `flags`. Throws Error(MissingFeature).
-  uint32_t memory_type(uint32_t type_bits, VkMemoryPropertyFlags flags) const;
+  /// Index of a memory type among `type_bits` with all of `flags`, and of `preferred` if there is one. Throws
+  /// Error(MissingFeature).
+  uint32_t memory_type(uint32_t type_bits, VkMemoryPropertyFlags flags,
+                       VkMemoryPropertyFlags preferred = 0) const;
+
+  /// What was done since the device was opened, by all threads together.
+  DeviceCounters counters() const { return live_counters_.read(); }
+  /// Called by what does it.
+  LiveCounters& live_counters() { return live_counters_; }
 
   /// Accounting of device memory, called by Buffer.
   void count_memory(int64_t bytes);
@@ -126,6 +149,7 @@ class Device {
  private:
   void create_logical_device(bool with_swapchain);
   void create_pipeline_builder(const std::filesystem::path& cache_folder);
+  void create_submission(uint64_t staging_bytes);
   void destroy();
 
   struct Validation;
@@ -139,9 +163,12 @@ class Device {
   PFN_vkCmdPushDescriptorSetKHR push_descriptor_set_ = nullptr;
   VkPhysicalDeviceMemoryProperties memory_{};
   std::unique_ptr<PipelineBuilder> pipeline_builder_;
+  LiveCounters live_counters_;
+  std::unique_ptr<SubmissionQueue> submissions_;
+  std::unique_ptr<StagingRing> staging_;
+  std::unique_ptr<RecordingPool> recordings_;
   DeviceReport report_;
   DeviceLimits limits_;
-  std::mutex queue_mutex_;
   std::atomic<bool> times_passes_{false};
   std::mutex pass_times_mutex_;
   std::vector<PassTime> pass_times_;

@@ -43,6 +43,7 @@ std::vector<std::string> missing_features(VkPhysicalDevice device,
   FeatureChain features;
   vkGetPhysicalDeviceFeatures2(device, &features.core);
   if (!features.v12.scalarBlockLayout) missing.push_back("scalarBlockLayout");
+  if (!features.v12.timelineSemaphore) missing.push_back("timelineSemaphore");
   if (!features.v13.synchronization2) missing.push_back("synchronization2");
   if (!features.v13.maintenance4) missing.push_back("maintenance4");
   if (!features.v13.subgroupSizeControl) missing.push_back("subgroupSizeControl");

@@ -4,13 +4,12 @@
 
 #include <algorithm>
 
+#include "engine/gpu/barrier.h"
 #include "engine/gpu/error.h"
 
 namespace surefield::gpu {
 
 namespace {
-
-constexpr uint32_t kSetsPerPool = 256;
 
 /// Refuses what a driver would answer with undefined behaviour.
 void check_slice(const Device& device, const Pipeline& pass, const BindingInfo& binding, const Slice& slice) {
@@ -28,39 +27,27 @@ void check_slice(const Device& device, const Pipeline& pass, const BindingInfo& 
 
 }  // namespace
 
-Recorder::Recorder(Device& device) : device_(device) {
-  VkCommandPoolCreateInfo pool{VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO};
-  pool.queueFamilyIndex = device.queue_family();
-  check(vkCreateCommandPool(device.handle(), &pool, nullptr, &pool_), "creating a command pool");
-  VkCommandBufferAllocateInfo info{VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO};
-  info.commandPool = pool_;
-  info.commandBufferCount = 1;
-  const VkResult result = vkAllocateCommandBuffers(device.handle(), &info, &commands_);
-  if (result != VK_SUCCESS) vkDestroyCommandPool(device.handle(), pool_, nullptr);
-  check(result, "allocating a command buffer");
+Recorder::Recorder(Device& device)
+    : device_(device), objects_(device.recordings().take()), commands_(objects_.commands) {
   begin();
 }
 
 Recorder::~Recorder() {
-  if (queries_) vkDestroyQueryPool(device_.handle(), queries_, nullptr);
-  for (VkDescriptorPool pool : descriptor_pools_) vkDestroyDescriptorPool(device_.handle(), pool, nullptr);
-  vkDestroyCommandPool(device_.handle(), pool_, nullptr);
+  device_.recordings().give_back(objects_);
 }
 
 void Recorder::begin() {
   VkCommandBufferBeginInfo info{VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO};
   info.flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT;
   check(vkBeginCommandBuffer(commands_, &info), "beginning a command buffer");
-  if (queries_) vkCmdResetQueryPool(commands_, queries_, 0, query_capacity_);
+  if (query_capacity_) vkCmdResetQueryPool(commands_, objects_.queries, 0, query_capacity_);
 }
 
 void Recorder::enable_timestamps(uint32_t capacity) {
-  if (queries_ || device_.limits().timestamp_ns == 0) return;
-  VkQueryPoolCreateInfo info{VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO};
-  info.queryType = VK_QUERY_TYPE_TIMESTAMP;
-  info.queryCount = query_capacity_ = capacity * 2;
-  check(vkCreateQueryPool(device_.handle(), &info, nullptr, &queries_), "creating a query pool");
-  vkCmdResetQueryPool(commands_, queries_, 0, query_capacity_);
+  if (query_capacity_ || device_.limits().timestamp_ns == 0) return;
+  device_.recordings().reserve_queries(objects_, capacity * 2);
+  query_capacity_ = capacity * 2;
+  vkCmdResetQueryPool(commands_, objects_.queries, 0, query_capacity_);
 }
 
 void Recorder::touch(std::span<const VkBuffer> reads, std::span<const VkBuffer> writes) {
@@ -137,27 +124,19 @@ VkDescriptorSet Recorder::allocate_set(VkDescriptorSetLayout layout) {
   info.descriptorSetCount = 1;
   info.pSetLayouts = &layout;
   VkDescriptorSet set = VK_NULL_HANDLE;
-  for (; pools_full_ < descriptor_pools_.size(); ++pools_full_) {
-    info.descriptorPool = descriptor_pools_[pools_full_];
+  for (; pools_full_ < objects_.descriptor_pools.size(); ++pools_full_) {
+    info.descriptorPool = objects_.descriptor_pools[pools_full_];
     if (vkAllocateDescriptorSets(device_.handle(), &info, &set) == VK_SUCCESS) return set;
   }
-  const VkDescriptorPoolSize size{VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, kSetsPerPool * 16};
-  VkDescriptorPoolCreateInfo pool{VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO};
-  pool.maxSets = kSetsPerPool;
-  pool.poolSizeCount = 1;
-  pool.pPoolSizes = &size;
-  VkDescriptorPool created = VK_NULL_HANDLE;
-  check(vkCreateDescriptorPool(device_.handle(), &pool, nullptr, &created), "creating a descriptor pool");
-  descriptor_pools_.push_back(created);
-  info.descriptorPool = created;
+  info.descriptorPool = device_.recordings().add_descriptor_pool(objects_);
   check(vkAllocateDescriptorSets(device_.handle(), &info, &set), "allocating a descriptor set");
   return set;
 }
 
 void Recorder::timestamp(const char* pass) {
   if (device_.times_passes()) enable_timestamps();
-  if (!queries_ || timed_.size() >= query_capacity_) return;
-  vkCmdWriteTimestamp2(commands_, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, queries_,
+  if (!query_capacity_ || timed_.size() >= query_capacity_) return;
+  vkCmdWriteTimestamp2(commands_, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, objects_.queries,
                        static_cast<uint32_t>(timed_.size()));
   timed_.push_back(pass);
 }
@@ -206,7 +185,7 @@ void Recorder::copy_raw(VkBuffer source, uint64_t source_offset, VkBuffer target
 std::vector<PassTime> Recorder::read_times() {
   std::vector<uint64_t> ticks(timed_.size());
   if (timed_.empty()) return {};
-  check(vkGetQueryPoolResults(device_.handle(), queries_, 0, static_cast<uint32_t>(ticks.size()),
+  check(vkGetQueryPoolResults(device_.handle(), objects_.queries, 0, static_cast<uint32_t>(ticks.size()),
                               ticks.size() * 8, ticks.data(), 8,
                               VK_QUERY_RESULT_64_BIT | VK_QUERY_RESULT_WAIT_BIT),
         "reading timestamps");
@@ -220,16 +199,7 @@ std::vector<PassTime> Recorder::read_times() {
 
 std::vector<PassTime> Recorder::submit() {
   // What the device wrote must be visible to the host and to the next submission.
-  VkMemoryBarrier2 barrier{VK_STRUCTURE_TYPE_MEMORY_BARRIER_2};
-  barrier.srcStageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT;
-  barrier.srcAccessMask = VK_ACCESS_2_MEMORY_WRITE_BIT;
-  barrier.dstStageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT | VK_PIPELINE_STAGE_2_HOST_BIT;
-  barrier.dstAccessMask =
-      VK_ACCESS_2_MEMORY_READ_BIT | VK_ACCESS_2_MEMORY_WRITE_BIT | VK_ACCESS_2_HOST_READ_BIT;
-  VkDependencyInfo dependency{VK_STRUCTURE_TYPE_DEPENDENCY_INFO};
-  dependency.memoryBarrierCount = 1;
-  dependency.pMemoryBarriers = &barrier;
-  vkCmdPipelineBarrier2(commands_, &dependency);
+  record_full_barrier(commands_);
   check(vkEndCommandBuffer(commands_), "ending a command buffer");
   device_.submit_and_wait(commands_);
   auto times = read_times();
@@ -238,9 +208,8 @@ std::vector<PassTime> Recorder::submit() {
   retired_.clear();
   read_.clear();
   written_.clear();
-  for (VkDescriptorPool pool : descriptor_pools_) vkResetDescriptorPool(device_.handle(), pool, 0);
   pools_full_ = 0;
-  check(vkResetCommandPool(device_.handle(), pool_, 0), "resetting a command pool");
+  device_.recordings().reset(objects_);
   begin();
   return times;
 }

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "engine/gpu/pass.h"
+#include "engine/gpu/recording_pool.h"
 
 namespace surefield::gpu {
 
@@ -77,7 +78,7 @@ class Recorder {
     retired_.push_back(std::move(successor.buffer()));
   }
 
-  /// Copies between raw handles without tracking; for staging buffers, alone in their recorder.
+  /// Copies between raw handles, of which nothing is tracked: no barrier is put in.
   void copy_raw(VkBuffer source, uint64_t source_offset, VkBuffer target, uint64_t target_offset,
                 uint64_t bytes);
 
@@ -99,14 +100,12 @@ class Recorder {
   std::vector<PassTime> read_times();
 
   Device& device_;
-  VkCommandPool pool_ = VK_NULL_HANDLE;
-  VkCommandBuffer commands_ = VK_NULL_HANDLE;
-  std::vector<VkDescriptorPool> descriptor_pools_;
-  std::size_t pools_full_ = 0;            ///< so many of them, from the first on, have no set left
+  RecordingObjects& objects_;             ///< the device's
+  VkCommandBuffer commands_;              ///< of these
+  std::size_t pools_full_ = 0;            ///< descriptor pools, from the first on, that have no set left
   std::unordered_set<VkBuffer> read_;     ///< read since the last barrier
   std::unordered_set<VkBuffer> written_;  ///< written since the last barrier
-  VkQueryPool queries_ = VK_NULL_HANDLE;
-  uint32_t query_capacity_ = 0;
+  uint32_t query_capacity_ = 0;           ///< 0: dispatches are not timed
   std::vector<const char*> timed_;
   std::vector<Buffer> retired_;  ///< replaced, perhaps in use by what has been recorded
 };

@@ -38,6 +38,7 @@ struct SplatEngine::Implementation {
   Densifier densifier;
   FrameStore frames;
   MapBlocks blocks;
+  std::vector<CameraVariable> cameras;  ///< of the views of a call, used again and again
 
   explicit Implementation(const EngineOptions& options)
       : device({.selector = options.device, .validate = options.validate}),
@@ -54,16 +55,23 @@ struct SplatEngine::Implementation {
     device.finish_pipelines();
   }
 
+  /// The views' cameras on the device.
+  std::span<CameraVariable> cameras_of(std::span<const MappingView> views) {
+    while (cameras.size() < views.size()) cameras.emplace_back(device, Camera{});
+    for (std::size_t v = 0; v < views.size(); ++v) cameras[v].assign(views[v].camera, views[v].gains);
+    return std::span(cameras).first(views.size());
+  }
+
   /// Takes the steps of `order`, a few per submission; steps from the first on that found too little room are
   /// taken again.
-  void run_steps(std::span<const MappingView> views, std::span<CameraVariable> cameras,
+  void run_steps(std::span<const MappingView> views, std::span<CameraVariable> view_cameras,
                  std::span<const int> order, const MappingSettings& settings, double extent) {
     gpu::Recorder recorder(device);
     for (std::size_t done = 0; done < order.size();) {
       const std::size_t end = std::min(order.size(), done + kMappingBatch);
       for (std::size_t i = done; i < end; ++i) {
         const MappingView& view = views[order[i]];
-        mapper.record_step(recorder, rasteriser, map, frames.on_device(view.frame), cameras[order[i]],
+        mapper.record_step(recorder, rasteriser, map, frames.on_device(view.frame), view_cameras[order[i]],
                            view.refine_pose, settings, extent);
       }
       recorder.submit();
@@ -168,8 +176,7 @@ MappingResult SplatEngine::optimise(std::span<MappingView> views, std::span<cons
                                     const MappingSettings& settings, double extent) {
   const auto begin = std::chrono::steady_clock::now();
   Implementation& i = *implementation_;
-  std::vector<CameraVariable> cameras;
-  for (const MappingView& view : views) cameras.emplace_back(i.device, view.camera, view.gains);
+  const std::span<CameraVariable> cameras = i.cameras_of(views);
   i.run_steps(views, cameras, order, settings, extent);
   for (std::size_t v = 0; v < views.size(); ++v)
     if (views[v].refine_pose) views[v].camera.world_to_camera = pose_of(cameras[v].camera.download(1)[0]);
@@ -188,10 +195,11 @@ JudgeResult SplatEngine::judge(std::span<const MappingView> views, const Mapping
   Implementation& i = *implementation_;
   gpu::Recorder recorder(i.device);
   i.judge.record_begin(recorder, i.map);
-  for (const MappingView& view : views) {
-    const CameraVariable camera(i.device, view.camera);
+  const std::span<CameraVariable> cameras = i.cameras_of(views);
+  for (std::size_t v = 0; v < views.size(); ++v) {
     do {
-      i.judge.record_view(recorder, i.rasteriser, i.map, i.frames.on_device(view.frame), camera.camera);
+      i.judge.record_view(recorder, i.rasteriser, i.map, i.frames.on_device(views[v].frame),
+                          cameras[v].camera);
       recorder.submit();
     } while (i.rasteriser.lists.settle() == 0);
   }
@@ -210,6 +218,7 @@ EngineReport SplatEngine::report() const {
           .driver = device.report().driver,
           .map_bytes = size() * implementation_->map.parameter_bytes(),
           .device_peak_bytes = device.memory_peak(),
+          .device_use = device.counters(),
           .validation_messages = device.validation_messages()};
 }
 

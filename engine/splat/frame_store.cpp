@@ -4,7 +4,17 @@
 
 namespace surefield {
 
+/// Makes all places at once, so that a later frame allocates nothing.
+void FrameStore::make_places(const ImageSize& size) {
+  places_.reserve(kPlaces);
+  while (places_.size() < kPlaces) {
+    places_.push_back({SensorFrame(device_), std::nullopt});
+    places_.back().images.reserve(size);
+  }
+}
+
 FrameHandle FrameStore::load(const FrameView& view) {
+  make_places({static_cast<uint32_t>(view.width), static_cast<uint32_t>(view.height)});
   const std::size_t at = free_place();
   Place& place = places_[at];
   place.images.assign(view);
@@ -38,10 +48,6 @@ const SensorFrame& FrameStore::on_device(FrameHandle frame) {
 std::size_t FrameStore::free_place() {
   const auto is_free = [](const Place& place) { return !place.frame; };
   auto found = std::find_if(places_.begin(), places_.end(), is_free);
-  if (found == places_.end() && places_.size() < kPlaces) {
-    places_.reserve(kPlaces);  // references to the others stay good
-    found = places_.insert(places_.end(), Place{SensorFrame(device_), std::nullopt});
-  }
   if (found == places_.end()) {
     found = std::min_element(places_.begin(), places_.end(),
                              [](const Place& a, const Place& b) { return a.last_use < b.last_use; });

@@ -36,6 +36,7 @@ class FrameStore {
     std::optional<FrameHandle> frame;
     uint64_t last_use = 0;
   };
+  void make_places(const ImageSize& size);
   std::size_t free_place();
   void pack(Place& place);
   void unpack(const Entry& entry, SensorFrame& images) const;

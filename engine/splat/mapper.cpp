@@ -11,7 +11,12 @@ uint32_t strips(uint32_t length) {
 }  // namespace
 
 CameraVariable::CameraVariable(gpu::Device& device, const Camera& initial, const Eigen::Vector3f& view_gains)
-    : camera(device, "keyframe camera"), adam(device, "keyframe Adam"), gains(to_vec3(view_gains)) {
+    : camera(device, "keyframe camera"), adam(device, "keyframe Adam") {
+  assign(initial, view_gains);
+}
+
+void CameraVariable::assign(const Camera& initial, const Eigen::Vector3f& view_gains) {
+  gains = to_vec3(view_gains);
   const glsl::CameraState state = to_device(initial);
   camera.upload(std::span(&state, 1));
   adam.upload(std::vector<glsl::PoseAdam>{{}});

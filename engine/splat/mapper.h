@@ -21,6 +21,8 @@ struct CameraVariable {
 
   CameraVariable(gpu::Device& device, const Camera& initial,
                  const Eigen::Vector3f& view_gains = Eigen::Vector3f::Ones());
+  /// Puts a camera in the place of the one before; its pose starts without the optimiser's state.
+  void assign(const Camera& initial, const Eigen::Vector3f& view_gains = Eigen::Vector3f::Ones());
 };
 
 /// Optimises the map, and poses beside it, with all six losses (paper eq. 14 to 18 and 21).

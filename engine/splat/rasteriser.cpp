@@ -68,7 +68,9 @@ Rasteriser::Rasteriser(gpu::Device& device, const TileShape& shape)
       reduce_pose_(device, kReduceWorkgroup),
       footprint_gradients_(device, "footprint gradients"),
       layer_gradients_(device, "layer gradients"),
-      pose_partials_(device, "partial pose gradients") {}
+      pose_partials_(device, "partial pose gradients"),
+      render_camera_(device, "camera"),
+      render_depth_(device, "sensor depth") {}
 
 Rasteriser::BackwardPasses& Rasteriser::backward_passes(int sh_degree) {
   const bool full = pose_gradient_kind == PoseGradientKind::Full;
@@ -197,18 +199,16 @@ RenderImages Rasteriser::render(const GaussianMap& map, const Camera& camera,
                                 std::span<const float> sensor_depth) {
   const ImageSize size{static_cast<uint32_t>(camera.intrinsics.width),
                        static_cast<uint32_t>(camera.intrinsics.height)};
-  gpu::Array<glsl::CameraState> state(device_, "camera");
   const glsl::CameraState host_state = to_device(camera);
-  state.upload(std::span(&host_state, 1));
-  gpu::Array<float> depth(device_, "sensor depth", size.pixels());
+  render_camera_.upload(std::span(&host_state, 1));
   std::vector<float> clean(sensor_depth.begin(), sensor_depth.end());
   clean.resize(size.pixels(), 0.0f);
   for (float& d : clean)
     if (!std::isfinite(d) || d < 0) d = 0;
-  depth.upload(clean);
+  render_depth_.upload(clean);
   gpu::Recorder recorder(device_);
   do {
-    record_forward(recorder, map, {size, state, depth}, Outputs::All);
+    record_forward(recorder, map, {size, render_camera_, render_depth_}, Outputs::All);
     recorder.submit();
   } while (lists.settle() == 0);
 

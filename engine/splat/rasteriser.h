@@ -103,6 +103,8 @@ class Rasteriser {
   gpu::Array<glsl::FootprintGradient> footprint_gradients_;  ///< per instance, as the next
   gpu::Array<glsl::LayerGradient> layer_gradients_;
   gpu::Array<glsl::PoseGradient> pose_partials_;
+  gpu::Array<glsl::CameraState> render_camera_;  ///< of render(), as the next
+  gpu::Array<float> render_depth_;
 };
 
 }  // namespace surefield

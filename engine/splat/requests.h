@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/gpu/device_counters.h"
 #include "engine/splat/pose_gradient.h"
 #include "engine/types/camera.h"
 
@@ -139,6 +140,7 @@ struct EngineReport {
   std::string driver;
   uint64_t map_bytes = 0;          ///< parameters of the Gaussians
   uint64_t device_peak_bytes = 0;  ///< most device memory in use at any time
+  gpu::DeviceCounters device_use;  ///< since the engine was made
   std::vector<std::string> validation_messages;
 };
 

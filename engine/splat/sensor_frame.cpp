@@ -9,6 +9,11 @@ SensorFrame::SensorFrame(gpu::Device& device, const FrameView& view) : SensorFra
   assign(view);
 }
 
+void SensorFrame::reserve(const ImageSize& room) {
+  colour.reserve(room.pixels());
+  depth.reserve(room.pixels());
+}
+
 void SensorFrame::assign(const FrameView& view) {
   size = {static_cast<uint32_t>(view.width), static_cast<uint32_t>(view.height)};
   valid_pixels = 0;

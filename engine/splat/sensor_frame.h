@@ -16,6 +16,8 @@ struct SensorFrame {
   explicit SensorFrame(gpu::Device& device);
   SensorFrame(gpu::Device& device, const FrameView& view);
 
+  /// Makes room for frames of that size.
+  void reserve(const ImageSize& room);
   /// Puts a frame in the place of the one before.
   void assign(const FrameView& view);
 };
