@@ -83,7 +83,8 @@ void Slam::Implementation::release_newest() {
 void Slam::Implementation::initialise(const Frame& frame, FrameReport& report) {
   extent = scene_extent(frame, settings.depth_max);
   const Camera camera{intrinsics};
-  engine.assign(spawn_gaussians(frame, camera, nullptr, settings.spawn, settings.depth_max));
+  engine.assign(spawn_gaussians(frame, camera, nullptr, settings.spawn, settings.depth_max),
+                settings.depth_model);
   covisibility.add(frame);
   frames.push_back({frame.timestamp, 0, Pose::Identity()});
   keyframes.push_back(make_keyframe(frame, engine.load(view_of(frame, settings.depth_max)), camera,

@@ -46,9 +46,7 @@ struct Slam::Implementation {
         covisibility(s.keyframes),
         engine(options),
         region(engine, s),
-        random(static_cast<uint32_t>(s.seed)) {
-    engine.set_depth_model(s.depth_model);
-  }
+        random(static_cast<uint32_t>(s.seed)) {}
 
   Pose world_to_frame(std::size_t i) const {
     const TrackedFrame& f = frames[i];

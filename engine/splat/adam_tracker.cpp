@@ -38,7 +38,6 @@ TrackingResult AdamTracker::track(Rasteriser& rasteriser, TrackingLoss& loss, co
                                   const SensorFrame& frame, const Camera& start,
                                   const TrackingSettings& settings) {
   const auto begin = std::chrono::steady_clock::now();
-  rasteriser.pose_gradient_kind = settings.pose_gradient;
   const glsl::CameraState first = to_device(start);
   camera_.upload(std::span(&first, 1));
   const glsl::TrackState fresh{.best_camera = first, .best_loss = std::numeric_limits<float>::max()};
@@ -46,18 +45,16 @@ TrackingResult AdamTracker::track(Rasteriser& rasteriser, TrackingLoss& loss, co
 
   gpu::Recorder recorder(device_);
   glsl::TrackState state = fresh;
+  const View view = tracking_view(frame, camera_, settings);
+  const auto record = [&](std::size_t) {
+    loss.record(recorder, rasteriser, map, view, frame, settings);
+    loss.record_gradient(recorder, rasteriser, view, frame, settings);
+    rasteriser.record_backward_pose(recorder, map, view, settings.pose_gradient, Outputs::ColourDepth);
+    record_step(recorder, rasteriser, loss, frame, settings);
+  };
   for (int done = 0; done < settings.iterations; done = static_cast<int>(state.adam.steps)) {
-    for (int i = 0; i < std::min(kBatch, settings.iterations - done); ++i) {
-      loss.record(recorder, rasteriser, map, frame, camera_, settings);
-      loss.record_gradient(recorder, rasteriser, frame, settings);
-      rasteriser.record_backward_pose(recorder, map, {frame.size, camera_, frame.depth},
-                                      Outputs::ColourDepth);
-      record_step(recorder, rasteriser, loss, frame, settings);
-    }
-    recorder.submit();
-    const uint32_t completed = rasteriser.lists.settle();
+    rasteriser.lists.submit(recorder, std::min(kBatch, settings.iterations - done), record);
     state = state_.download(1)[0];
-    if (completed == 0) continue;  // there was too little room, and now there is enough
     const bool stuck = static_cast<int>(state.adam.steps) == done;
     if (stuck || state.last_update < settings.stop_below) break;
   }

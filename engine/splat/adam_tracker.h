@@ -11,7 +11,7 @@ class AdamTracker {
  public:
   explicit AdamTracker(gpu::Device& device);
 
-  /// Tracks `frame` from the pose of `start`. Sets the rasteriser's kind of pose gradient.
+  /// Tracks `frame` from the pose of `start`.
   TrackingResult track(Rasteriser& rasteriser, TrackingLoss& loss, const GaussianMap& map,
                        const SensorFrame& frame, const Camera& start, const TrackingSettings& settings);
 

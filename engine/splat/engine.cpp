@@ -62,20 +62,17 @@ struct SplatEngine::Implementation {
     return std::span(cameras).first(views.size());
   }
 
-  /// Takes the steps of `order`, a few per submission; steps from the first on that found too little room are
-  /// taken again.
+  /// Takes the steps of `order`, a few per submission.
   void run_steps(std::span<const MappingView> views, std::span<CameraVariable> view_cameras,
                  std::span<const int> order, const MappingSettings& settings, double extent) {
     gpu::Recorder recorder(device);
-    for (std::size_t done = 0; done < order.size();) {
-      const std::size_t end = std::min(order.size(), done + kMappingBatch);
-      for (std::size_t i = done; i < end; ++i) {
-        const MappingView& view = views[order[i]];
-        mapper.record_step(recorder, rasteriser, map, frames.on_device(view.frame), view_cameras[order[i]],
+    for (std::size_t begin = 0; begin < order.size(); begin += kMappingBatch) {
+      const auto batch = order.subspan(begin, std::min(kMappingBatch, order.size() - begin));
+      rasteriser.lists.submit(recorder, batch.size(), [&](std::size_t step) {
+        const MappingView& view = views[batch[step]];
+        mapper.record_step(recorder, rasteriser, map, frames.on_device(view.frame), view_cameras[batch[step]],
                            view.refine_pose, settings, extent);
-      }
-      recorder.submit();
-      done += rasteriser.lists.settle();
+      });
     }
   }
 };
@@ -93,8 +90,8 @@ void SplatEngine::release(FrameHandle frame) {
   implementation_->frames.release(frame);
 }
 
-void SplatEngine::assign(const GaussianCloud& cloud) {
-  implementation_->map.assign(cloud);
+void SplatEngine::assign(const GaussianCloud& cloud, DepthModel depth_model) {
+  implementation_->map.assign(cloud, depth_model);
   implementation_->blocks.clear();
 }
 
@@ -114,10 +111,6 @@ uint32_t SplatEngine::size() const {
 
 uint32_t SplatEngine::device_size() const {
   return implementation_->map.size();
-}
-
-void SplatEngine::set_depth_model(DepthModel model) {
-  implementation_->rasteriser.lists.depth_model = model;
 }
 
 void SplatEngine::set_map_budget(uint64_t bytes) {
@@ -147,7 +140,7 @@ RenderImages SplatEngine::render(const Camera& camera, std::span<const float> se
 RenderImages SplatEngine::render_whole(const Camera& camera) const {
   if (implementation_->blocks.parked() == 0) return render(camera);
   GaussianMap whole(implementation_->device);
-  whole.assign(map());
+  whole.assign(map(), implementation_->map.depth_model());
   return implementation_->rasteriser.render(whole, camera);
 }
 
@@ -197,11 +190,10 @@ JudgeResult SplatEngine::judge(std::span<const MappingView> views, const Mapping
   i.judge.record_begin(recorder, i.map);
   const std::span<CameraVariable> cameras = i.cameras_of(views);
   for (std::size_t v = 0; v < views.size(); ++v) {
-    do {
+    i.rasteriser.lists.submit(recorder, 1, [&](std::size_t) {
       i.judge.record_view(recorder, i.rasteriser, i.map, i.frames.on_device(views[v].frame),
                           cameras[v].camera);
-      recorder.submit();
-    } while (i.rasteriser.lists.settle() == 0);
+    });
   }
   i.judge.record_verdict(recorder, i.map, settings);
   recorder.submit();

@@ -26,16 +26,14 @@ class SplatEngine {
   FrameHandle load(const FrameView& frame);
   void release(FrameHandle frame);
 
-  /// Replaces the map, adds Gaussians to it, reads it back.
-  void assign(const GaussianCloud& cloud);
+  /// Replaces the map, adds Gaussians to it, reads it back. The depth of a Gaussian over its footprint comes
+  /// with the map, and not with each verb: Gaussians that were optimised with the one are wrong in the other.
+  void assign(const GaussianCloud& cloud, DepthModel depth_model = DepthModel::Plane);
   void insert(const GaussianCloud& cloud);
   GaussianCloud map() const;
   uint32_t size() const;
   /// Gaussians on the device; see set_map_budget().
   uint32_t device_size() const;
-
-  /// Sets the depth of a Gaussian over its footprint, of everything from here on; at first it is a plane's.
-  void set_depth_model(DepthModel model);
 
   /// Sets how much device memory the Gaussians may take, with all that is kept for each of them. The map is
   /// then in two parts: what focus() and recall() ask for is on the device, and everything else waits in host

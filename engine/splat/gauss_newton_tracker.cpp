@@ -176,6 +176,19 @@ void GaussNewtonTracker::record_step(gpu::Recorder& recorder, const Rasteriser& 
       {.count = count, .sources = 1 + static_cast<uint32_t>(references)});
 }
 
+/// Records the alignment of the frame to the render: on all levels, or on the finest alone.
+void GaussNewtonTracker::record_alignment(gpu::Recorder& recorder, const Rasteriser& rasteriser,
+                                          bool coarse_to_fine, std::size_t references,
+                                          const TrackingSettings& settings) {
+  record_points(recorder, rasteriser, settings);
+  if (coarse_to_fine)
+    for (int level = kLevels - 1; level >= 0; --level)
+      for (int i = 0; i < kFirstSteps[level]; ++i)
+        record_step(recorder, rasteriser, level, references, settings);
+  else
+    for (int i = 0; i < kLaterSteps; ++i) record_step(recorder, rasteriser, 0, references, settings);
+}
+
 TrackingResult GaussNewtonTracker::track(Rasteriser& rasteriser, TrackingLoss& loss, const GaussianMap& map,
                                          const SensorFrame& frame, const Camera& start,
                                          const TrackingSettings& settings,
@@ -192,26 +205,17 @@ TrackingResult GaussNewtonTracker::track(Rasteriser& rasteriser, TrackingLoss& l
   resize(recorder, frame.size);
   record_sensor(recorder, frame);
   TrackingResult result;
-  for (int render = 0; render <= settings.renders;) {
-    loss.record(recorder, rasteriser, map, frame, camera_, settings);
-    record_begin(recorder, rasteriser, loss, frame, settings);
-    const bool last = render == settings.renders || (render > 0 && motion_of(state) < kStill);
-    if (!last) {
-      record_points(recorder, rasteriser, settings);
-      if (render == 0)
-        for (int level = kLevels - 1; level >= 0; --level)
-          for (int i = 0; i < kFirstSteps[level]; ++i)
-            record_step(recorder, rasteriser, level, references.size(), settings);
-      else
-        for (int i = 0; i < kLaterSteps; ++i)
-          record_step(recorder, rasteriser, 0, references.size(), settings);
-    }
-    recorder.submit();
-    if (rasteriser.lists.settle() == 0) continue;  // there was too little room, and now there is enough
+  const View view = tracking_view(frame, camera_, settings);
+  for (bool last = false; !last;) {
+    const bool is_first = result.iterations == 0;
+    last = result.iterations >= settings.renders || (!is_first && motion_of(state) < kStill);
+    rasteriser.lists.submit(recorder, 1, [&](std::size_t) {
+      loss.record(recorder, rasteriser, map, view, frame, settings);
+      record_begin(recorder, rasteriser, loss, frame, settings);
+      if (!last) record_alignment(recorder, rasteriser, is_first, references.size(), settings);
+    });
     state = state_.download(1)[0];
-    ++render;
-    if (last) break;
-    result.iterations = render;
+    if (!last) ++result.iterations;
   }
 
   result.world_to_camera = pose_of(state.best_camera);

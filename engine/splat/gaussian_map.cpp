@@ -67,9 +67,10 @@ void GaussianMap::reserve(uint32_t capacity) {
   densification.reserve(blocks, true);
 }
 
-void GaussianMap::assign(const GaussianCloud& cloud) {
+void GaussianMap::assign(const GaussianCloud& cloud, DepthModel depth_model) {
   size_ = 0;
   sh_degree_ = cloud.sh_degree;
+  depth_model_ = depth_model;
   append(cloud);
 }
 

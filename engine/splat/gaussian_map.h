@@ -2,6 +2,7 @@
 
 #include "engine/gpu/buffer.h"
 #include "engine/gpu/glsl_types.h"
+#include "engine/types/depth_model.h"
 #include "engine/types/gaussian_cloud.h"
 
 namespace surefield {
@@ -28,9 +29,11 @@ class GaussianMap {
 
   uint32_t size() const { return size_; }
   int sh_degree() const { return sh_degree_; }
+  DepthModel depth_model() const { return depth_model_; }
 
-  /// Replaces the map. Moments and statistics start at zero.
-  void assign(const GaussianCloud& cloud);
+  /// Replaces the map by Gaussians whose depth over their footprints is `depth_model`, which stays that of
+  /// the map until the next assign(). Moments and statistics start at zero.
+  void assign(const GaussianCloud& cloud, DepthModel depth_model = DepthModel::Plane);
   /// Adds Gaussians at the end; their moments and statistics start at zero. Throws std::invalid_argument when
   /// the degree of the spherical harmonics differs from that of a map that is not empty, or the arrays of the
   /// cloud differ in length.
@@ -73,6 +76,7 @@ class GaussianMap {
   gpu::Device& device_;
   uint32_t size_ = 0;
   int sh_degree_ = 0;
+  DepthModel depth_model_ = DepthModel::Plane;
 };
 
 /// Adds the parameters and uncertainties of records of GaussianMap to a cloud of the same SH degree.

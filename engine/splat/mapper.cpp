@@ -74,7 +74,8 @@ void Mapper::record_ssim(gpu::Recorder& recorder, const Rasteriser& rasteriser, 
 void Mapper::record_loss(gpu::Recorder& recorder, Rasteriser& rasteriser, const GaussianMap& map,
                          const SensorFrame& frame, const CameraVariable& camera,
                          const MappingSettings& settings) {
-  rasteriser.record_forward(recorder, map, {frame.size, camera.camera, frame.depth}, Outputs::All);
+  const View view{frame.size, camera.camera, frame.depth};
+  rasteriser.record_forward(recorder, map, view, Outputs::All);
   record_ssim(recorder, rasteriser, frame, camera.gains);
   const auto [width, height] = frame.size;
   const uint32_t column_strips = strips(height) * width;
@@ -98,7 +99,7 @@ void Mapper::record_loss(gpu::Recorder& recorder, Rasteriser& rasteriser, const 
                      .w_depth = static_cast<float>(settings.weight_depth),
                      .w_align = static_cast<float>(settings.weight_align),
                      .w_variance = static_cast<float>(settings.weight_variance),
-                     .background = to_vec3(rasteriser.background),
+                     .background = to_vec3(view.background),
                      .gains = camera.gains});
   recorder.dispatch(sum_losses_, 1, {.loss_partials = loss_partials_, .loss = loss},
                     {.count = column_strips});
@@ -145,9 +146,8 @@ void Mapper::record_update(gpu::Recorder& recorder, const Rasteriser& rasteriser
 void Mapper::record_step(gpu::Recorder& recorder, Rasteriser& rasteriser, GaussianMap& map,
                          const SensorFrame& frame, CameraVariable& camera, bool refine_pose,
                          const MappingSettings& settings, double extent) {
-  rasteriser.pose_gradient_kind = settings.pose_gradient;
   record_loss(recorder, rasteriser, map, frame, camera, settings);
-  rasteriser.record_backward(recorder, map, {frame.size, camera.camera, frame.depth},
+  rasteriser.record_backward(recorder, map, {frame.size, camera.camera, frame.depth}, settings.pose_gradient,
                              {.weight = static_cast<float>(settings.weight_isotropy),
                               .epsilon = static_cast<float>(settings.isotropy_epsilon)});
   record_update(recorder, rasteriser, map, settings, extent);

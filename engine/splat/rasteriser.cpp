@@ -72,16 +72,16 @@ Rasteriser::Rasteriser(gpu::Device& device, const TileShape& shape)
       render_camera_(device, "camera"),
       render_depth_(device, "sensor depth") {}
 
-Rasteriser::BackwardPasses& Rasteriser::backward_passes(int sh_degree) {
-  const bool full = pose_gradient_kind == PoseGradientKind::Full;
-  const bool plane = lists.depth_model == DepthModel::Plane;
-  auto& made = backward_passes_[sh_degree][full][plane];
+Rasteriser::BackwardPasses& Rasteriser::backward_passes(const GaussianMap& map, PoseGradientKind kind) {
+  const bool full = kind == PoseGradientKind::Full;
+  const bool plane = map.depth_model() == DepthModel::Plane;
+  auto& made = backward_passes_[map.sh_degree()][full][plane];
   if (made) return *made;
   const TileShape& s = lists.shape();
   passes::blend_backward_pose::Constants constants{.TILE_W = s.width,
                                                    .TILE_H = s.height,
                                                    .LANES = s.lanes,
-                                                   .SH_DEGREE = static_cast<uint32_t>(sh_degree),
+                                                   .SH_DEGREE = static_cast<uint32_t>(map.sh_degree()),
                                                    .FULL_POSE_GRADIENT = full ? 1u : 0u,
                                                    .WITH_GEOMETRY = 0,
                                                    .PLANE_DEPTH = plane ? 1u : 0u};
@@ -118,11 +118,11 @@ void Rasteriser::record_blending(gpu::Recorder& recorder, const View& view, Outp
                      .colour_opacity = colour_opacity,
                      .geometry = geometry,
                      .dominators = dominators},
-                    {.background = to_vec3(background)});
+                    {.background = to_vec3(view.background)});
 }
 
 void Rasteriser::record_backward(gpu::Recorder& recorder, GaussianMap& map, const View& view,
-                                 const IsotropyTerm& isotropy) {
+                                 PoseGradientKind kind, const IsotropyTerm& isotropy) {
   const uint32_t subgroups = gpu::kWorkgroup / lists.shape().lanes;
   const uint64_t groups = map.size() / gpu::kWorkgroup + 1;
   recorder.reserve(footprint_gradients_, lists.instance_capacity());
@@ -144,8 +144,7 @@ void Rasteriser::record_backward(gpu::Recorder& recorder, GaussianMap& map, cons
                      .footprint_gradients = footprint_gradients_,
                      .layer_gradients = layer_gradients_},
                     {});
-  recorder.dispatch_indirect(backward_passes(map.sh_degree()).project, lists.dispatch_args,
-                             TileLists::kVisibleArgs,
+  recorder.dispatch_indirect(backward_passes(map, kind).project, lists.dispatch_args, TileLists::kVisibleArgs,
                              {.camera = view.camera,
                               .means = map.means.value,
                               .log_scales = map.log_scales.value,
@@ -171,10 +170,10 @@ void Rasteriser::record_backward(gpu::Recorder& recorder, GaussianMap& map, cons
 }
 
 void Rasteriser::record_backward_pose(gpu::Recorder& recorder, const GaussianMap& map, const View& view,
-                                      Outputs outputs) {
+                                      PoseGradientKind kind, Outputs outputs) {
   const uint32_t tiles = lists.tiles_x(view.size) * lists.tiles_y(view.size);
   recorder.reserve(pose_partials_, tiles);
-  BackwardPasses& made = backward_passes(map.sh_degree());
+  BackwardPasses& made = backward_passes(map, kind);
   recorder.dispatch(outputs == Outputs::All ? made.blend_pose_all : made.blend_pose, lists.tiles_x(view.size),
                     lists.tiles_y(view.size),
                     {.camera = view.camera,
@@ -196,7 +195,7 @@ void Rasteriser::record_backward_pose(gpu::Recorder& recorder, const GaussianMap
 }
 
 RenderImages Rasteriser::render(const GaussianMap& map, const Camera& camera,
-                                std::span<const float> sensor_depth) {
+                                std::span<const float> sensor_depth, const Eigen::Vector3f& background) {
   const ImageSize size{static_cast<uint32_t>(camera.intrinsics.width),
                        static_cast<uint32_t>(camera.intrinsics.height)};
   const glsl::CameraState host_state = to_device(camera);
@@ -207,10 +206,9 @@ RenderImages Rasteriser::render(const GaussianMap& map, const Camera& camera,
     if (!std::isfinite(d) || d < 0) d = 0;
   render_depth_.upload(clean);
   gpu::Recorder recorder(device_);
-  do {
-    record_forward(recorder, map, {size, render_camera_, render_depth_}, Outputs::All);
-    recorder.submit();
-  } while (lists.settle() == 0);
+  const View view{
+      .size = size, .camera = render_camera_, .sensor_depth = render_depth_, .background = background};
+  lists.submit(recorder, 1, [&](std::size_t) { record_forward(recorder, map, view, Outputs::All); });
 
   RenderImages images;
   images.width = static_cast<int>(size.width);

@@ -22,12 +22,14 @@ glsl::CameraState to_device(const Camera& camera);
 Pose pose_of(const glsl::CameraState& state);
 
 /// A view on the device: the camera (which pose optimisation moves) and the sensor's depth, 0 where invalid.
-/// Gaussians whose uncertainty is above `uncertainty_above` (m^2) are left out.
+/// Gaussians whose uncertainty is above `uncertainty_above` (m^2) are left out; what is left of the light
+/// when all others are blended is of the `background`.
 struct View {
   ImageSize size;
   const gpu::Array<glsl::CameraState>& camera;
   const gpu::Array<float>& sensor_depth;
   float uncertainty_above = std::numeric_limits<float>::infinity();
+  Eigen::Vector3f background = Eigen::Vector3f::Zero();  ///< RGB, 0 to 1
 };
 
 /// L_iso (paper eq. 17): its weight, and the ratio of the largest scale to the smallest that is free.
@@ -55,21 +57,20 @@ class Rasteriser {
 
   /// After record_forward() of the same view with Outputs::All, and with pixel_upstream filled: gradients of
   /// every visible Gaussian and of the pose. `isotropy` adds that of w L_iso (paper eq. 17).
-  void record_backward(gpu::Recorder& recorder, GaussianMap& map, const View& view,
+  void record_backward(gpu::Recorder& recorder, GaussianMap& map, const View& view, PoseGradientKind kind,
                        const IsotropyTerm& isotropy);
 
   /// After record_forward() of the same view and `outputs`, with pixel_upstream filled: the gradient of the
   /// pose alone; nothing is written per Gaussian. Gradients of outputs that were not computed are left out.
   void record_backward_pose(gpu::Recorder& recorder, const GaussianMap& map, const View& view,
-                            Outputs outputs = Outputs::All);
+                            PoseGradientKind kind, Outputs outputs = Outputs::All);
 
   /// Renders one camera and reads everything back. `sensor_depth` (metres, row-major) may be empty: no
   /// uncertainty.
-  RenderImages render(const GaussianMap& map, const Camera& camera, std::span<const float> sensor_depth = {});
+  RenderImages render(const GaussianMap& map, const Camera& camera, std::span<const float> sensor_depth = {},
+                      const Eigen::Vector3f& background = Eigen::Vector3f::Zero());
 
   TileLists lists;
-  Eigen::Vector3f background = Eigen::Vector3f::Zero();
-  PoseGradientKind pose_gradient_kind = PoseGradientKind::Full;  ///< of every later record_backward*()
 
   // Images of the last view, row-major.
   gpu::Array<glsl::vec4> colour_opacity;  ///< I (RGB), O
@@ -85,7 +86,7 @@ class Rasteriser {
 
  private:
   struct BackwardPasses;
-  BackwardPasses& backward_passes(int sh_degree);
+  BackwardPasses& backward_passes(const GaussianMap& map, PoseGradientKind kind);
 
   gpu::Device& device_;
   gpu::Pass<passes::blend_forward> forward_;

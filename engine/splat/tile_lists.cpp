@@ -57,13 +57,13 @@ TileLists::TileLists(gpu::Device& device, const TileShape& shape)
   status.upload(std::vector<glsl::RenderStatus>{{}});
 }
 
-gpu::Pass<passes::project_splats>& TileLists::projection(int sh_degree) {
-  const bool plane = depth_model == DepthModel::Plane;
-  auto& pass = project_[sh_degree][plane];
+gpu::Pass<passes::project_splats>& TileLists::projection(const GaussianMap& map) {
+  const bool plane = map.depth_model() == DepthModel::Plane;
+  auto& pass = project_[map.sh_degree()][plane];
   if (!pass)
     pass = std::make_unique<gpu::Pass<passes::project_splats>>(
         device_, gpu::kWorkgroup,
-        passes::project_splats::Constants{shape_.width, shape_.height, static_cast<uint32_t>(sh_degree),
+        passes::project_splats::Constants{shape_.width, shape_.height, static_cast<uint32_t>(map.sh_degree()),
                                           plane ? 1u : 0u});
   return *pass;
 }
@@ -106,7 +106,7 @@ void TileLists::record(gpu::Recorder& recorder, const GaussianMap& map,
 
 void TileLists::record_projection(gpu::Recorder& recorder, const GaussianMap& map,
                                   const gpu::Array<glsl::CameraState>& camera, float uncertainty_above) {
-  auto& project = projection(map.sh_degree());
+  auto& project = projection(map);
   recorder.dispatch(project, project.groups(gaussians_),
                     {.camera = camera,
                      .means = map.means.value,
@@ -175,6 +175,14 @@ void TileLists::record_instances(gpu::Recorder& recorder, const gpu::Array<glsl:
 
 glsl::RenderStatus TileLists::read_status() const {
   return status.download(1)[0];
+}
+
+void TileLists::submit(gpu::Recorder& recorder, std::size_t count,
+                       const std::function<void(std::size_t)>& record_step) {
+  for (std::size_t done = 0; done < count; done += settle()) {
+    for (std::size_t step = done; step < count; ++step) record_step(step);
+    recorder.submit();
+  }
 }
 
 uint32_t TileLists::settle() {

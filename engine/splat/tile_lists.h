@@ -1,5 +1,7 @@
 #pragma once
 
+#include <functional>
+
 #include "engine/primitives/radix_sort.h"
 #include "engine/primitives/scan.h"
 #include "engine/splat/gaussian_map.h"
@@ -45,17 +47,14 @@ class TileLists {
   void record(gpu::Recorder& recorder, const GaussianMap& map, const gpu::Array<glsl::CameraState>& camera,
               const ImageSize& size, float uncertainty_above);
 
-  /// After a submission: makes room if a view had more instances than that, and returns how many of the
-  /// recorded views came before it. From that view on nothing was changed, and the work must be recorded
-  /// again.
-  uint32_t settle();
-  /// Room for instances; settle() raises it.
-  void reserve_instances(uint32_t capacity);
+  /// Records the steps 0 to `count` - 1, each of which records one view and what is made of it, and submits
+  /// them together. Where a view had more instances than there is room for, nothing was changed from its step
+  /// on: then makes room, and records and submits those steps again, until all are done.
+  void submit(gpu::Recorder& recorder, std::size_t count,
+              const std::function<void(std::size_t)>& record_step);
 
   /// Numbers of the last submitted view.
   glsl::RenderStatus read_status() const;
-
-  DepthModel depth_model = DepthModel::Plane;  ///< of every later record()
 
   const TileShape& shape() const { return shape_; }
   uint32_t tiles_x(const ImageSize& size) const { return (size.width + shape_.width - 1) / shape_.width; }
@@ -77,11 +76,15 @@ class TileLists {
   uint32_t instance_capacity() const { return instance_capacity_; }
 
  private:
+  /// After a submission: makes room if a view had more instances than that, and returns how many of the
+  /// recorded views came before it.
+  uint32_t settle();
+  void reserve_instances(uint32_t capacity);
   void reserve(gpu::Recorder& recorder, const GaussianMap& map, const ImageSize& size);
   void record_projection(gpu::Recorder& recorder, const GaussianMap& map,
                          const gpu::Array<glsl::CameraState>& camera, float uncertainty_above);
   void record_instances(gpu::Recorder& recorder, const gpu::Array<glsl::CameraState>& camera, uint32_t tiles);
-  gpu::Pass<passes::project_splats>& projection(int sh_degree);
+  gpu::Pass<passes::project_splats>& projection(const GaussianMap& map);
 
   gpu::Device& device_;
   TileShape shape_;

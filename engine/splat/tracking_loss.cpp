@@ -2,6 +2,13 @@
 
 namespace surefield {
 
+View tracking_view(const SensorFrame& frame, const gpu::Array<glsl::CameraState>& camera,
+                   const TrackingSettings& settings) {
+  View view{.size = frame.size, .camera = camera, .sensor_depth = frame.depth};
+  if (settings.uncertainty_above > 0) view.uncertainty_above = static_cast<float>(settings.uncertainty_above);
+  return view;
+}
+
 TrackingLoss::DepthPasses::DepthPasses(gpu::Device& device, uint32_t normalised)
     : residuals(device, gpu::kWorkgroup, {.NORMALISED_DEPTH = normalised}),
       gradient(device, gpu::kWorkgroup, {.NORMALISED_DEPTH = normalised}) {}
@@ -30,15 +37,11 @@ void TrackingLoss::record_masks(gpu::Recorder& recorder, uint32_t pixels, double
 }
 
 void TrackingLoss::record(gpu::Recorder& recorder, Rasteriser& rasteriser, const GaussianMap& map,
-                          const SensorFrame& frame, const gpu::Array<glsl::CameraState>& camera,
-                          const TrackingSettings& settings) {
+                          const View& view, const SensorFrame& frame, const TrackingSettings& settings) {
   const auto pixels = static_cast<uint32_t>(frame.size.pixels());
   const auto& pass = passes_of(settings.depth).residuals;
   recorder.reserve(residuals_, pixels);
-  const float uncertain = settings.uncertainty_above > 0 ? static_cast<float>(settings.uncertainty_above)
-                                                         : std::numeric_limits<float>::infinity();
-  rasteriser.record_forward(recorder, map, {frame.size, camera, frame.depth, uncertain},
-                            Outputs::ColourDepth);
+  rasteriser.record_forward(recorder, map, view, Outputs::ColourDepth);
   recorder.fill(histograms_, 2 * glsl::RESIDUAL_BINS, 0);
   recorder.dispatch(pass, pass.groups(pixels),
                     {.colour_opacity = rasteriser.colour_opacity,
@@ -51,8 +54,8 @@ void TrackingLoss::record(gpu::Recorder& recorder, Rasteriser& rasteriser, const
   record_masks(recorder, pixels, settings.outlier_factor);
 }
 
-void TrackingLoss::record_gradient(gpu::Recorder& recorder, Rasteriser& rasteriser, const SensorFrame& frame,
-                                   const TrackingSettings& settings) {
+void TrackingLoss::record_gradient(gpu::Recorder& recorder, Rasteriser& rasteriser, const View& view,
+                                   const SensorFrame& frame, const TrackingSettings& settings) {
   const auto pixels = static_cast<uint32_t>(frame.size.pixels());
   const auto& pass = passes_of(settings.depth).gradient;
   recorder.dispatch(pass, pass.groups(pixels),
@@ -67,7 +70,7 @@ void TrackingLoss::record_gradient(gpu::Recorder& recorder, Rasteriser& rasteris
                     {.pixels = pixels,
                      .weight_colour = static_cast<float>(settings.weight_colour),
                      .weight_depth = static_cast<float>(settings.weight_depth),
-                     .background = to_vec3(rasteriser.background)});
+                     .background = to_vec3(view.background)});
 }
 
 }  // namespace surefield

@@ -10,20 +10,24 @@
 
 namespace surefield {
 
+/// The frame's view from `camera`, as tracking renders it.
+View tracking_view(const SensorFrame& frame, const gpu::Array<glsl::CameraState>& camera,
+                   const TrackingSettings& settings);
+
 /// The loss that tracking minimises (paper eq. 19): masked L1 of colour and depth between a render of the map
 /// and a frame.
 class TrackingLoss {
  public:
   explicit TrackingLoss(gpu::Device& device);
 
-  /// Records render, masks and loss of the frame seen from `camera`: the masked sums land in `sums`.
-  void record(gpu::Recorder& recorder, Rasteriser& rasteriser, const GaussianMap& map,
-              const SensorFrame& frame, const gpu::Array<glsl::CameraState>& camera,
-              const TrackingSettings& settings);
+  /// Records render, masks and loss of a tracking_view() of the frame: the masked sums land in `sums`.
+  void record(gpu::Recorder& recorder, Rasteriser& rasteriser, const GaussianMap& map, const View& view,
+              const SensorFrame& frame, const TrackingSettings& settings);
 
-  /// After record(): dL/d(images), which lands in rasteriser.pixel_upstream. The masks are constants in it.
-  void record_gradient(gpu::Recorder& recorder, Rasteriser& rasteriser, const SensorFrame& frame,
-                       const TrackingSettings& settings);
+  /// After record() of the same view: dL/d(images), which lands in rasteriser.pixel_upstream. The masks are
+  /// constants in it.
+  void record_gradient(gpu::Recorder& recorder, Rasteriser& rasteriser, const View& view,
+                       const SensorFrame& frame, const TrackingSettings& settings);
 
   gpu::Array<glsl::TrackSums> sums;  ///< of the last record()
 

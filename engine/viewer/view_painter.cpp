@@ -99,8 +99,8 @@ ViewPainter::ModePasses& ViewPainter::passes_of(ViewMode mode) {
   return *made;
 }
 
-void ViewPainter::assign(const GaussianCloud& cloud) {
-  map_.assign(cloud);
+void ViewPainter::assign(const GaussianCloud& cloud, DepthModel depth_model) {
+  map_.assign(cloud, depth_model);
 }
 
 void ViewPainter::set_sensor(const FrameView& images, const Intrinsics& intrinsics) {
@@ -116,11 +116,10 @@ void ViewPainter::paint(const Camera& camera, const ViewSettings& settings, std:
   size_ = {state.width, state.height};
   camera_.upload(std::span(&state, 1));
   gpu::Recorder recorder(device_);
-  do {
+  rasteriser_.lists.submit(recorder, 1, [&](std::size_t) {
     record_picture(recorder, camera, settings);
     overlay_.record(recorder, lines, camera, rasteriser_, pixels_);
-    recorder.submit();
-  } while (rasteriser_.lists.settle() == 0);
+  });
 }
 
 void ViewPainter::record_sensor(gpu::Recorder& recorder, const Camera& camera) {

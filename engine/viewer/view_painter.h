@@ -37,11 +37,9 @@ class ViewPainter {
  public:
   explicit ViewPainter(gpu::Device& device);
 
-  /// Replaces the map.
-  void assign(const GaussianCloud& cloud);
+  /// Replaces the map; as SplatEngine::assign().
+  void assign(const GaussianCloud& cloud, DepthModel depth_model = DepthModel::Plane);
   uint32_t gaussians() const { return map_.size(); }
-  /// As SplatEngine::set_depth_model().
-  void set_depth_model(DepthModel model) { rasteriser_.lists.depth_model = model; }
 
   /// Sets the frame that modes with `needs_sensor` compare the map with.
   void set_sensor(const FrameView& images, const Intrinsics& intrinsics);

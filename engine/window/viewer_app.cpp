@@ -37,7 +37,6 @@ ViewerApp::ViewerApp(ViewerInput input)
       painter_(device_),
       presenter_(device_, window_.create_surface(device_.window_handles().instance)),
       interface_(window_, device_, presenter_) {
-  painter_.set_depth_model(input_.depth_model);
   set_map(std::move(input_.map));
   state_.view.depth_far = static_cast<float>(input_.depth_far);
   state_.running = input_.live != nullptr;
@@ -64,7 +63,7 @@ void ViewerApp::begin_view() {
 }
 
 void ViewerApp::set_map(GaussianCloud map) {
-  painter_.assign(map);
+  painter_.assign(map, input_.depth_model);
   input_.map = std::move(map);
 }
 

@@ -57,11 +57,9 @@ DeviceGradients run_device(const reference::Scene& scene, const reference::Image
                            DepthModel model = DepthModel::Plane) {
   gpu::Device& device = testing::device();
   Rasteriser rasteriser(device, shape);
-  rasteriser.pose_gradient_kind = kind;
-  rasteriser.lists.depth_model = model;
-  rasteriser.background = {0.1f, 0.2f, 0.3f};
+  const Eigen::Vector3f background(0.1f, 0.2f, 0.3f);
   GaussianMap map(device);
-  map.assign(scene.cloud);
+  map.assign(scene.cloud, model);
   gpu::Array<glsl::CameraState> camera(device, "camera");
   const glsl::CameraState state = to_device(scene.camera);
   camera.upload(std::span(&state, 1));
@@ -70,8 +68,10 @@ DeviceGradients run_device(const reference::Scene& scene, const reference::Image
   for (float& d : clean)
     if (!std::isfinite(d) || d < 0) d = 0;
   depth.upload(clean);
-  const View view{{state.width, state.height}, camera, depth};
-  const RenderImages images = rasteriser.render(map, scene.camera, clean);  // grows the lists too
+  const View view{
+      .size = {state.width, state.height}, .camera = camera, .sensor_depth = depth, .background = background};
+  // Grows the lists too.
+  const RenderImages images = rasteriser.render(map, scene.camera, clean, background);
   std::vector<glsl::PixelUpstream> pixels;
   for (std::size_t i = 0; i < images.opacity.size(); ++i) {
     pixels.push_back(testing::upstream_at(upstream, images, i, {0.1, 0.2, 0.3}));
@@ -86,7 +86,7 @@ DeviceGradients run_device(const reference::Scene& scene, const reference::Image
   rasteriser.record_forward(recorder, map, view, Outputs::All);
   recorder.submit();
   rasteriser.pixel_upstream.upload(pixels);
-  rasteriser.record_backward(recorder, map, view, {});
+  rasteriser.record_backward(recorder, map, view, kind, {});
   recorder.submit();
 
   DeviceGradients g;
@@ -100,7 +100,7 @@ DeviceGradients run_device(const reference::Scene& scene, const reference::Image
     for (double x : flat({v})) g.sh.push_back(x);
   auto pose = rasteriser.pose_gradient.download(1)[0];
   g.pose = flat({pose.rotation, pose.translation});
-  rasteriser.record_backward_pose(recorder, map, view);
+  rasteriser.record_backward_pose(recorder, map, view, kind);
   recorder.submit();
   pose = rasteriser.pose_gradient.download(1)[0];
   g.tracking_pose = flat({pose.rotation, pose.translation});

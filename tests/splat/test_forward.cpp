@@ -18,11 +18,9 @@ void compare_with_oracle(const reference::Scene& scene, const TileShape& shape,
                          const Eigen::Vector3d& background, DepthModel model = DepthModel::Plane) {
   gpu::Device& device = testing::device();
   Rasteriser rasteriser(device, shape);
-  rasteriser.background = background.cast<float>();
-  rasteriser.lists.depth_model = model;
   GaussianMap map(device);
-  map.assign(scene.cloud);
-  const RenderImages got = rasteriser.render(map, scene.camera, scene.depth);
+  map.assign(scene.cloud, model);
+  const RenderImages got = rasteriser.render(map, scene.camera, scene.depth, background.cast<float>());
   reference::Settings settings;
   settings.background = background;
   settings.plane_depth = model == DepthModel::Plane;
@@ -99,10 +97,9 @@ TEST_CASE("thousands of Gaussians") {
 TEST_CASE("an empty map renders the background") {
   gpu::Device& device = testing::device();
   Rasteriser rasteriser(device);
-  rasteriser.background = {0.25f, 0.5f, 0.75f};
   GaussianMap map(device);
   Camera camera{{.width = 20, .height = 10, .fx = 20, .fy = 20, .cx = 9.5, .cy = 4.5}};
-  const RenderImages images = rasteriser.render(map, camera);
+  const RenderImages images = rasteriser.render(map, camera, {}, {0.25f, 0.5f, 0.75f});
   for (std::size_t i = 0; i < 200; ++i) {
     CHECK(images.colour[3 * i + 2] == 0.75f);
     CHECK(images.opacity[i] == 0);

@@ -134,8 +134,9 @@ TEST_CASE("the tracking loss, its masks and its gradient agree with the oracle")
       const glsl::CameraState state = to_device(scene.camera);
       camera.upload(std::span(&state, 1));
       gpu::Recorder recorder(device);
-      loss.record(recorder, rasteriser, map, frame, camera, settings);
-      loss.record_gradient(recorder, rasteriser, frame, settings);
+      const View view = tracking_view(frame, camera, settings);
+      loss.record(recorder, rasteriser, map, view, frame, settings);
+      loss.record_gradient(recorder, rasteriser, view, frame, settings);
       recorder.submit();
 
       const auto want = reference::tracking_loss(

@@ -50,11 +50,12 @@ struct Court {
     const glsl::CameraState host = to_device(camera);
     state.upload(std::span(&host, 1));
     gpu::Recorder recorder(device);
-    for (int times = 1;; ++times) {
+    int times = 0;
+    rasteriser.lists.submit(recorder, 1, [&](std::size_t) {
       judge.record_view(recorder, rasteriser, map, frame, state);
-      recorder.submit();
-      if (rasteriser.lists.settle() == 1) return times;
-    }
+      ++times;
+    });
+    return times;
   }
 
   void begin() {

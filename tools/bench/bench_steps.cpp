@@ -87,10 +87,8 @@ SceneSteps::SceneSteps(gpu::Device& device, const TileShape& shape, const BenchS
       recorder_(device),
       start_(moved(scene.camera)),
       upstream_(some_upstream(frame_.size.pixels())) {
-  do {
-    rasteriser_.record_forward(recorder_, map_, view(), Outputs::All);
-    recorder_.submit();
-  } while (rasteriser_.lists.settle() == 0);
+  rasteriser_.lists.submit(
+      recorder_, 1, [&](std::size_t) { rasteriser_.record_forward(recorder_, map_, view(), Outputs::All); });
 }
 
 void SceneSteps::render(Outputs outputs) {
@@ -101,17 +99,16 @@ void SceneSteps::render(Outputs outputs) {
 void SceneSteps::render_and_go_back(Outputs outputs) {
   rasteriser_.record_forward(recorder_, map_, view(), outputs);
   if (outputs == Outputs::All)
-    rasteriser_.record_backward(recorder_, map_, view(), {.weight = 0.1f});
+    rasteriser_.record_backward(recorder_, map_, view(), PoseGradientKind::Full, {.weight = 0.1f});
   else
-    rasteriser_.record_backward_pose(recorder_, map_, view(), outputs);
+    rasteriser_.record_backward_pose(recorder_, map_, view(), PoseGradientKind::Full, outputs);
   recorder_.submit();
 }
 
 void SceneSteps::map() {
-  for (int i = 0; i < kBatch; ++i)
+  rasteriser_.lists.submit(recorder_, kBatch, [&](std::size_t) {
     mapper_.record_step(recorder_, rasteriser_, map_, frame_, camera_, true, still_mapping(), 1);
-  recorder_.submit();
-  rasteriser_.lists.settle();
+  });
 }
 
 void SceneSteps::track(TrackingMethod method) {

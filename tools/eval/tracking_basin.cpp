@@ -115,8 +115,7 @@ class Basin {
       : run_(run), seed_(options.seed), engine_(options.engine) {
     load_settings(settings_,
                   {.config = (run.path / "config.yaml").string(), .assignments = options.assignments}, "");
-    engine_.set_depth_model(settings_.depth_model);
-    engine_.assign(read_map(run.map_file()).cloud);
+    engine_.assign(read_map(run.map_file()).cloud, settings_.depth_model);
   }
 
   /// Tracks a frame from all starting poses. Returns false, with nothing done, where it cannot be read.

@@ -79,8 +79,7 @@ SlamSettings settings_of(const RunFolder& run) {
 }
 
 void assign_map(SplatEngine& engine, const RunFolder& run) {
-  engine.set_depth_model(settings_of(run).depth_model);
-  engine.assign(read_map(run.map_file()).cloud);
+  engine.assign(read_map(run.map_file()).cloud, settings_of(run).depth_model);
 }
 
 std::unique_ptr<Dataset> open_dataset_of(const RunFolder& run, const std::string& instead) {

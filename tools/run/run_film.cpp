@@ -50,16 +50,14 @@ void RunFilm::begin(const RunStart& start) {
   log_ = &start.log;
   frames_ = start.frames;
   newest_.camera.intrinsics = start.intrinsics;
-  guard([&] {
-    stage_.emplace(device_);
-    stage_->painter.set_depth_model(start.settings.depth_model);
-  });
+  depth_model_ = start.settings.depth_model;
+  guard([&] { stage_.emplace(device_); });
 }
 
 void RunFilm::fed(const Frame& frame, const Slam& slam, const FrameReport& report) {
   guard([&] {
     // Only keyframes change the map.
-    if (report.keyframe) stage_->painter.assign(slam.map());
+    if (report.keyframe) stage_->painter.assign(slam.map(), depth_model_);
     newest_ = {newest_.index + 1, {newest_.camera.intrinsics, report.world_to_camera}, frame.colour, {}};
     follower_pose_ = follower_.follow(report.world_to_camera.inverse());
     film_.add(paint(slam));
@@ -69,7 +67,7 @@ void RunFilm::fed(const Frame& frame, const Slam& slam, const FrameReport& repor
 void RunFilm::finished(const Slam& slam) {
   guard([&] {
     if (film_.pictures() > 0) {
-      stage_->painter.assign(slam.map());
+      stage_->painter.assign(slam.map(), depth_model_);
       const cv::Mat last = paint(slam);
       for (int i = 0; i < kRate; ++i) film_.add(last);
     }

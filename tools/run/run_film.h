@@ -48,6 +48,7 @@ class RunFilm : public RunObserver {
   PictureSize size_;
   bool quiet_;
   std::optional<Stage> stage_;
+  DepthModel depth_model_ = DepthModel::Plane;
   spdlog::logger* log_ = nullptr;
   int frames_ = 0;  ///< that there are to feed
   Follower follower_;

@@ -148,8 +148,7 @@ void write_pictures(const RenderOptions& options, const Camera& camera, const Ch
   sensor_depth.resize(static_cast<std::size_t>(k.width) * k.height, 0.0f);
   gpu::Device device({.selector = options.engine.device, .validate = options.engine.validate});
   ViewPainter painter(device);
-  painter.set_depth_model(map.depth_model);
-  painter.assign(map.cloud);
+  painter.assign(map.cloud, map.depth_model);
   painter.set_sensor({.width = k.width,
                       .height = k.height,
                       .colour = colour.data,
@@ -183,12 +182,11 @@ int render(const RenderOptions& options) {
     return kSuccess;
   }
   SplatEngine engine(options.engine);
-  engine.set_depth_model(map.depth_model);
-  engine.assign(map.cloud);
+  engine.assign(map.cloud, map.depth_model);
   RenderImages images = sensor_depth.empty() ? engine.render(camera)
                                              : engine.render(camera, std::span<const float>(sensor_depth));
   write_images(options.out, images);
-  engine.assign(coloured_by_uncertainty(map.cloud));
+  engine.assign(coloured_by_uncertainty(map.cloud), map.depth_model);
   write_gaussian_uncertainty(options.out, engine.render(camera));
   return kSuccess;
 }

@@ -163,8 +163,7 @@ class Filming {
     for (ViewMode mode : modes_)
       films_.push_back(
           std::make_unique<FilmWriter>(film_of(options.out, mode, modes_.size() > 1), options.rate));
-    if (journey.run) painter_.set_depth_model(settings_of(journey.run->run).depth_model);
-    painter_.assign(journey.map);
+    painter_.assign(journey.map, journey.run ? settings_of(journey.run->run).depth_model : DepthModel::Plane);
   }
 
   /// Until the last picture, or until the user interrupts.
