@@ -1,7 +1,10 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <opencv2/core.hpp>
+
+namespace cv {
+class Mat;
+}
 
 namespace surefield {
 

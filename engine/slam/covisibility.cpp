@@ -22,11 +22,21 @@ std::unique_ptr<ImageDescriptor> make_descriptor(const KeyframeSettings& setting
   return nullptr;
 }
 
-Covisibility::Covisibility(const KeyframeSettings& settings)
-    : size_(settings.window), descriptor_(make_descriptor(settings)) {}
+Covisibility::Covisibility(const KeyframeSettings& settings, std::unique_ptr<ImageDescriptor> descriptor)
+    : size_(settings.window), descriptor_(descriptor ? std::move(descriptor) : make_descriptor(settings)) {}
 
-void Covisibility::add(const Frame& frame) {
-  if (descriptor_) pool_.add(descriptor_->describe(frame.colour));
+Eigen::VectorXf Covisibility::describe(const Frame& frame) {
+  if (!descriptor_) return {};
+  Eigen::VectorXf descriptor = descriptor_->describe(frame.colour);
+  if (descriptor.size() == 0 || (length_ > 0 && descriptor.size() != length_))
+    throw UsageError("the descriptors of images do not have one length");
+  return descriptor;
+}
+
+void Covisibility::add(Eigen::VectorXf descriptor) {
+  if (!descriptor_) return;
+  length_ = descriptor.size();
+  pool_.add(std::move(descriptor));
 }
 
 std::vector<int> Covisibility::similar() const {

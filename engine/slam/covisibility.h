@@ -14,11 +14,16 @@ namespace surefield {
 /// by the similarity of their images, which does not depend on poses that may have drifted.
 class Covisibility {
  public:
-  /// Throws InputError where a file that the settings name cannot be used.
-  explicit Covisibility(const KeyframeSettings& settings);
+  /// Images are described by `descriptor`, by the one that the settings name where it is null. Throws
+  /// InputError where a file that the settings name cannot be used.
+  explicit Covisibility(const KeyframeSettings& settings,
+                        std::unique_ptr<ImageDescriptor> descriptor = nullptr);
 
-  /// `frame` has become a keyframe, the newest.
-  void add(const Frame& frame);
+  /// The descriptor of a frame; empty where images are not described. Throws what the descriptor throws, and
+  /// UsageError where its vectors differ in length.
+  Eigen::VectorXf describe(const Frame& frame);
+  /// There is a new keyframe, whose descriptor is this.
+  void add(Eigen::VectorXf descriptor);
 
   /// The k - 2 keyframes that look most like the newest, the best first, wherever they are thought to be;
   /// none where images are not described.
@@ -30,6 +35,7 @@ class Covisibility {
  private:
   int size_;                                     ///< k, of the window
   std::unique_ptr<ImageDescriptor> descriptor_;  ///< null: by overlap
+  Eigen::Index length_ = 0;                      ///< of the descriptors; 0: there is none yet
   DescriptorPool pool_;
 };
 

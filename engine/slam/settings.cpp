@@ -2,6 +2,8 @@
 
 #include <climits>
 
+#include "engine/config/config.h"
+
 namespace surefield {
 
 namespace {

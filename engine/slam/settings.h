@@ -1,9 +1,14 @@
 #pragma once
 
-#include "engine/config/config.h"
-#include "engine/splat/engine.h"
+#include <cstdint>
+#include <string>
+
+#include "engine/splat/requests.h"
+#include "engine/types/depth_model.h"
 
 namespace surefield {
+
+class ConfigSchema;
 
 /// How the keyframes that see the same are found: by reprojecting their depth, or by describing their images
 /// with VLAD over RootSIFT or with a network.

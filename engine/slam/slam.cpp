@@ -1,104 +1,67 @@
 #include "engine/slam/slam.h"
 
+#include <mutex>
+#include <utility>
+
 #include "engine/slam/slam_implementation.h"
-#include "engine/slam/spawn.h"
+#include "engine/slam/slam_turn.h"
 
 namespace surefield {
 
-namespace {
-
-constexpr int kKeyframeRest = 3;  // frames between keyframes that are due to little overlap
-
-FrameView view_of(const Frame& frame, double depth_max) {
-  return {.width = frame.colour.cols,
-          .height = frame.colour.rows,
-          .colour = frame.colour.ptr<uint8_t>(),
-          .depth = frame.depth.ptr<float>(),
-          .depth_max = static_cast<float>(depth_max)};
-}
-
-}  // namespace
-
-Slam::Slam(const SlamSettings& settings, const Intrinsics& intrinsics, const EngineOptions& options)
-    : implementation_(std::make_unique<Implementation>(settings, intrinsics, options)) {}
+Slam::Slam(const SlamSettings& settings, const Intrinsics& intrinsics, const EngineOptions& options,
+           std::unique_ptr<ImageDescriptor> descriptor)
+    : implementation_(
+          std::make_unique<Implementation>(settings, intrinsics, options, std::move(descriptor))) {}
 
 Slam::~Slam() = default;
 
-const FrameReport& Slam::feed(const Frame& frame) {
+FrameReport Slam::feed(const Frame& frame, const Tracked& tracked) {
   Implementation& s = *implementation_;
-  s.check_size(frame);
-  FrameReport report{.index = frame.index, .timestamp = frame.timestamp};
-  if (s.frames.empty()) {
-    s.initialise(frame, report);
-  } else {
-    const FrameHandle handle = s.engine.load(view_of(frame, s.settings.depth_max));
-    s.release_newest();
-    s.region.approach(s.keyframes, sample_points(frame, s.intrinsics, s.settings.depth_max), s.predict());
-    s.track(handle, report);
-    report.keyframe = s.wants_keyframe(report);
-    // Copies of the images: the caller may reuse its own.
-    s.newest = {Frame{frame.index, frame.timestamp, frame.colour.clone(), frame.depth.clone()}, handle};
-    if (report.keyframe) s.map_newest(report);
-  }
-  s.measure(report);
-  s.reports.push_back(report);
-  return s.reports.back();
+  Turn turn(s);
+  s.check_usable();
+  s.check_images(frame);
+  const bool first = s.history.empty();
+  FrameReport found{.index = frame.index, .timestamp = frame.timestamp};
+  Sighting sighting = first ? s.sight_first(frame, found) : s.sight(frame, found);
+  s.history.add(found);
+  turn.tell_tracked(tracked);
+
+  s.change_map(false, [&] {
+    if (first)
+      s.begin_map(frame, std::move(sighting));
+    else
+      s.extend_map(frame, std::move(sighting));
+    s.measure();
+  });
+  const FrameReport report = s.history.last_report();
+  turn.tell_revision();
+  return report;
 }
 
 void Slam::finish() {
   Implementation& s = *implementation_;
-  if (s.newest && !s.reports.back().lost) s.map_newest(s.reports.back());
-  s.release_newest();
-  if (!s.reports.empty()) s.measure(s.reports.back());
+  Turn turn(s);
+  if (s.finished) return;
+  s.check_usable();
+  if (s.pending && !s.history.last_report().lost) {
+    s.pending->sighting.descriptor = s.keyframes.describe(s.pending->frame);
+    s.change_map(true, [&] {
+      s.map_keyframe(s.pending->frame, std::move(s.pending->sighting));
+      s.measure();
+    });
+  }
+  s.pending.reset();
+  s.finished = true;
+  turn.tell_revision();
 }
 
-bool Slam::Implementation::wants_keyframe(const FrameReport& report) const {
-  if (report.lost) return false;
-  const int frame = static_cast<int>(frames.size()) - 1;
-  if (frame % settings.keyframes.interval == 0) return true;
-  return report.valid_fraction < settings.keyframes.valid_below * valid_after_keyframe &&
-         frame - last_keyframe_frame >= kKeyframeRest;
-}
-
-/// Makes the newest frame a keyframe and optimises the map over its window.
-void Slam::Implementation::map_newest(FrameReport& report) {
-  add_keyframe(newest->first, newest->second, report.world_to_camera);
-  newest.reset();
-  map_window(report);
-  report.keyframe = true;
-}
-
-/// Notes the size of the map after a frame.
-void Slam::Implementation::measure(FrameReport& report) const {
-  report.gaussians = engine.size();
-  report.device_gaussians = engine.device_size();
-  report.device_bytes = engine.device_bytes();
-}
-
-void Slam::Implementation::release_newest() {
-  if (newest) engine.release(newest->second);
-  newest.reset();
-}
-
-void Slam::Implementation::initialise(const Frame& frame, FrameReport& report) {
-  extent = scene_extent(frame, settings.depth_max);
-  const Camera camera{intrinsics};
-  engine.assign(spawn_gaussians(frame, camera, nullptr, settings.spawn, settings.depth_max),
-                settings.depth_model);
-  covisibility.add(frame);
-  frames.push_back({frame.timestamp, 0, Pose::Identity()});
-  keyframes.push_back(make_keyframe(frame, engine.load(view_of(frame, settings.depth_max)), camera,
-                                    sample_points(frame, intrinsics, settings.depth_max)));
-  const int half = settings.first_iterations / 2;
-  optimise(std::vector<int>(half, 0), {}, report);
-  densify();
-  optimise(std::vector<int>(settings.first_iterations - half, 0), {}, report);
-  align_to({0});
-  window = {0};
-  report.keyframe = true;
+bool Slam::usable() const {
+  const std::lock_guard lock(implementation_->state);
+  return !implementation_->broken && !implementation_->finished;
 }
 
 void Slam::change(const SlamSettings& settings) {
+  const Turn turn(*implementation_);
   SlamSettings& current = implementation_->settings;
   current.tracking = settings.tracking;
   current.mapping = settings.mapping;
@@ -110,38 +73,51 @@ void Slam::change(const SlamSettings& settings) {
   current.keyframes.valid_below = settings.keyframes.valid_below;
 }
 
-const std::vector<int>& Slam::window() const {
-  return implementation_->window;
-}
-
 Trajectory Slam::trajectory() const {
-  Trajectory trajectory;
-  for (std::size_t i = 0; i < implementation_->frames.size(); ++i)
-    trajectory.push_back(
-        {implementation_->frames[i].timestamp, implementation_->world_to_frame(i).inverse()});
-  return trajectory;
+  const std::lock_guard lock(implementation_->state);
+  return implementation_->history.trajectory();
 }
 
 Trajectory Slam::keyframes() const {
+  const std::lock_guard lock(implementation_->state);
   Trajectory trajectory;
-  for (const Keyframe& keyframe : implementation_->keyframes)
+  for (const Keyframe& keyframe : implementation_->keyframes.all())
     trajectory.push_back({keyframe.timestamp, keyframe.camera.world_to_camera.inverse()});
   return trajectory;
 }
 
+std::vector<int> Slam::window() const {
+  const std::lock_guard lock(implementation_->state);
+  return implementation_->keyframes.window();
+}
+
 GaussianCloud Slam::map() const {
+  const std::lock_guard lock(implementation_->state);
   return implementation_->engine.map();
 }
 
 RenderImages Slam::render(const Camera& camera) const {
+  const std::lock_guard lock(implementation_->state);
   return implementation_->engine.render_whole(camera);
 }
 
-const std::vector<FrameReport>& Slam::reports() const {
-  return implementation_->reports;
+uint64_t Slam::revision() const {
+  const std::lock_guard lock(implementation_->state);
+  return implementation_->revision;
+}
+
+void Slam::on_revision(RevisionListener listener) {
+  const Turn turn(*implementation_);
+  implementation_->listener = std::move(listener);
+}
+
+std::vector<FrameReport> Slam::reports() const {
+  const std::lock_guard lock(implementation_->state);
+  return implementation_->history.reports();
 }
 
 EngineReport Slam::engine_report() const {
+  const std::lock_guard lock(implementation_->state);
   return implementation_->engine.report();
 }
 

@@ -1,34 +1,20 @@
 #pragma once
 
+#include <cstdint>
+#include <functional>
 #include <memory>
 #include <vector>
 
-#include "engine/io/trajectory_file.h"
+#include "engine/places/image_descriptor.h"
+#include "engine/slam/frame_report.h"
 #include "engine/slam/settings.h"
-#include "engine/types/frame.h"
 #include "engine/types/trajectory.h"
 
 namespace surefield {
 
-/// What happened to one frame.
-struct FrameReport {
-  int index = 0;         ///< Frame::index
-  double timestamp = 0;  ///< seconds
-  Pose world_to_camera = Pose::Identity();
-  bool keyframe = false;
-  bool lost = false;  ///< tracking failed even after the re-tries; the pose is the best found
-  int retries = 0;    ///< other starting poses that were tried
-  double tracking_loss = 0;
-  double valid_fraction = 0;  ///< pixels that took part in tracking, of those with sensor depth
-  int tracking_iterations = 0;
-  double tracking_ms = 0;
-  int mapping_iterations = 0;
-  double mapping_ms = 0;
-  uint32_t gaussians = 0;            ///< in the map after this frame
-  uint32_t uncertain_gaussians = 0;  ///< on the device when the frame's mapping judged them
-  uint32_t device_gaussians = 0;     ///< of these, on the device
-  uint64_t device_bytes = 0;         ///< device memory in use after this frame
-};
+struct Frame;
+struct GaussianCloud;
+struct RenderImages;
 
 /// RGB-D SLAM (the paper's system): feed frames in order, get poses and the map.
 ///
@@ -37,21 +23,46 @@ struct FrameReport {
 ///   slam.finish();
 ///   write_trajectory("trajectory.txt", slam.trajectory());
 ///   write_ply("map.ply", slam.map());
+///
+/// Threads: every method may be called from any thread. feed(), finish(), change() and on_revision() take
+/// turns. All others only read; they wait for a frame in work and are let in, in the order in which they ask,
+/// between frames and while feed() or finish() runs a function of the caller. What is returned is a copy.
+///
+/// Errors: what derives from Error (engine/types/error.h), or std::bad_alloc. Where feed() or finish() throws
+/// before mapping has begun, nothing has changed: the frame was not fed, and the next may be. Where mapping
+/// itself throws, the map is left half done: usable() is false from there on, feed() and finish() throw a
+/// StateError that names the cause, and the reading methods tell what there is, as far as the device works.
 class Slam {
  public:
-  /// `intrinsics` are those of the frames that will be fed. Throws gpu::Error when no device is usable, and
-  /// InputError where a file that the settings name cannot be used.
-  Slam(const SlamSettings& settings, const Intrinsics& intrinsics, const EngineOptions& options = {});
+  /// Is told a frame's pose when it is known, before the map is worked on: the report lacks what mapping will
+  /// add, and mapping may refine the pose. Called by the thread that feeds; may read from the Slam, which has
+  /// the frame already, but neither feed, finish nor change it. What it throws is thrown by feed(), before
+  /// mapping.
+  using Tracked = std::function<void(const FrameReport&)>;
+  /// Is told the revision() when it has changed.
+  using RevisionListener = std::function<void(uint64_t)>;
+
+  /// `intrinsics` are those of the frames that will be fed. Keyframes that look alike are found by
+  /// `descriptor`, instead of by what settings.keyframes.covisibility asks for, unless it is null; it is
+  /// called by the thread that feeds, may not call the Slam, and where it throws the frame changes nothing.
+  /// Throws gpu::Error when no device is usable, and InputError where a file that the settings name cannot be
+  /// used.
+  Slam(const SlamSettings& settings, const Intrinsics& intrinsics, const EngineOptions& options = {},
+       std::unique_ptr<ImageDescriptor> descriptor = nullptr);
   ~Slam();
 
-  /// Tracks the frame and, if it becomes a keyframe, extends and optimises the map. Throws
-  /// std::invalid_argument when the images do not have the size of the intrinsics. A frame that cannot be
-  /// used throws and changes nothing.
-  const FrameReport& feed(const Frame& frame);
+  /// Tracks the frame and, if it becomes a keyframe, extends and optimises the map. The images are copied
+  /// where they are needed later. Throws UsageError where they do not have the size and type that the
+  /// intrinsics ask for, InputError where the first frame has no valid depth, StateError where no frame may
+  /// be fed any more, and gpu::Error; see above for what has changed then.
+  FrameReport feed(const Frame& frame, const Tracked& tracked = {});
 
   /// Call after the last frame: unless it is a keyframe, it becomes one, so that the map shows all that was
-  /// seen.
+  /// seen. No frame may be fed after it; calling it again does nothing.
   void finish();
+
+  /// Whether frames may be fed: until finish(), or an error in the middle of mapping.
+  bool usable() const;
 
   /// From the next frame on, takes the settings of tracking, mapping, spawning, densification and the loss of
   /// tracking, the mapping steps per keyframe, and when a frame becomes a keyframe; all others stay as they
@@ -64,17 +75,26 @@ class Slam {
   /// The keyframes alone.
   Trajectory keyframes() const;
   /// Those that were optimised together last: positions in keyframes(), the newest last.
-  const std::vector<int>& window() const;
+  std::vector<int> window() const;
   /// The Gaussian map.
   GaussianCloud map() const;
   /// Renders the map; world frame as in trajectory().
   RenderImages render(const Camera& camera) const;
 
-  const std::vector<FrameReport>& reports() const;
+  /// How often poses in trajectory() have become others than those that feed() had returned for their frames:
+  /// by at most one for a call of feed() or finish(), where it refined earlier keyframes.
+  uint64_t revision() const;
+  /// Sets who is told so: at the end of such a call of feed() or finish(), by the thread that calls it. It
+  /// may read from the Slam, but neither feed, finish nor change it, and must not throw.
+  void on_revision(RevisionListener listener);
+
+  /// One for each frame fed.
+  std::vector<FrameReport> reports() const;
   EngineReport engine_report() const;
 
  private:
   struct Implementation;
+  class Turn;
   std::unique_ptr<Implementation> implementation_;
 };
 

@@ -1,95 +1,93 @@
 #pragma once
 
-#include <deque>
+#include <atomic>
+#include <exception>
 #include <optional>
-#include <random>
-#include <stdexcept>
+#include <string>
+#include <thread>
 
-#include "engine/slam/active_region.h"
-#include "engine/slam/covisibility.h"
-#include "engine/slam/keyframes.h"
+#include "engine/slam/camera_tracker.h"
+#include "engine/slam/fair_mutex.h"
+#include "engine/slam/frame_history.h"
+#include "engine/slam/held_frame.h"
+#include "engine/slam/keyframe_graph.h"
+#include "engine/slam/map_upkeep.h"
 #include "engine/slam/slam.h"
 
 namespace surefield {
 
-/// A frame's pose relative to the keyframe that it was tracked after, so that it follows that keyframe's
-/// refinement.
-struct TrackedFrame {
-  double timestamp = 0;
-  int keyframe = 0;
-  Pose keyframe_to_frame = Pose::Identity();
+/// What a frame that may become a keyframe needs beside its images and its pose.
+struct Sighting {
+  HeldFrame image;
+  std::vector<Eigen::Vector3f> points;  ///< sample_points()
+  Eigen::VectorXf descriptor;           ///< of a keyframe; empty where images are not described
 };
 
-/// The state of a run. What becomes of a frame: slam.cpp; tracking: slam_tracking.cpp; mapping:
-/// slam_mapping.cpp.
+/// The last frame fed, which is no keyframe: finish() may make it one.
+struct PendingFrame {
+  Frame frame;  ///< with images of its own
+  Sighting sighting;
+};
+
+/// The parts of a run, and the steps that lead a frame through them: slam.cpp has their order,
+/// slam_implementation.cpp what they do.
 struct Slam::Implementation {
   SlamSettings settings;
   Intrinsics intrinsics;
-  Covisibility covisibility;
+  KeyframeGraph keyframes;
   SplatEngine engine;
-  ActiveRegion region;
-  std::mt19937 random;
-  double extent = 1;
-  std::vector<Keyframe> keyframes;
-  std::vector<TrackedFrame> frames;
-  std::vector<FrameReport> reports;
-  std::deque<double> recent_losses;
-  std::vector<int> window;                              ///< keyframes that were optimised together last
-  std::vector<int> reference_keyframes;                 ///< whose images frames are aligned to beside the map
-  std::optional<std::pair<Frame, FrameHandle>> newest;  ///< the last frame fed, unless it is a keyframe
-  int last_keyframe_frame = 0;                          ///< position among the frames fed
-  double valid_after_keyframe = 0;  ///< valid_fraction of the first frame tracked after it; 0: none yet
+  FrameHistory history;
+  CameraTracker tracker;
+  MapUpkeep upkeep;
+  std::optional<PendingFrame> pending;
+  bool finished = false;
+  std::optional<std::string> broken;  ///< by what mapping ended in the middle
+  uint64_t revision = 0;
+  RevisionListener listener;
 
-  Implementation(const SlamSettings& s, const Intrinsics& k, const EngineOptions& options)
-      : settings(s),
-        intrinsics(k),
-        covisibility(s.keyframes),
-        engine(options),
-        region(engine, s),
-        random(static_cast<uint32_t>(s.seed)) {}
+  FairMutex turns;                       ///< held by the thread that feeds, finishes or changes
+  std::atomic<std::thread::id> at_turn;  ///< that thread
+  FairMutex state;  ///< guards all of the above; held by who reads, and by the thread at turn except while a
+                    ///< function of the caller runs
 
-  Pose world_to_frame(std::size_t i) const {
-    const TrackedFrame& f = frames[i];
-    return f.keyframe_to_frame * keyframes[f.keyframe].camera.world_to_camera;
-  }
+  Implementation(const SlamSettings& s, const Intrinsics& k, const EngineOptions& options,
+                 std::unique_ptr<ImageDescriptor> descriptor);
 
-  /// Constant velocity: the last pose moved on by the last motion.
-  Pose predict() const {
-    const std::size_t n = frames.size();
-    if (n < 2) return world_to_frame(n - 1);
-    return world_to_frame(n - 1) * world_to_frame(n - 2).inverse() * world_to_frame(n - 1);
-  }
+  /// Throws StateError where no frame may be fed or made a keyframe any more.
+  void check_usable() const;
+  /// Throws UsageError where the images are not of the size and type that the intrinsics ask for.
+  void check_images(const Frame& frame) const;
 
-  /// The keyframes whose images the next frame is aligned to beside the map.
-  std::vector<TrackingReference> references() const {
-    std::vector<TrackingReference> references;
-    for (int k : reference_keyframes) references.push_back({keyframes[k].frame, keyframes[k].camera});
-    return references;
-  }
+  // Before mapping: these change nothing that a caller sees.
 
-  void check_size(const Frame& frame) const {
-    const cv::Size size(intrinsics.width, intrinsics.height);
-    if (frame.colour.size() != size || frame.depth.size() != size || frame.colour.type() != CV_8UC3 ||
-        frame.depth.type() != CV_32FC1 || !frame.colour.isContinuous() || !frame.depth.isContinuous())
-      throw std::invalid_argument(
-          "the frame's images do not have the size and type that the intrinsics ask for");
-  }
-
-  void initialise(const Frame& frame, FrameReport& report);
-  void track(FrameHandle handle, FrameReport& report);
+  /// The first frame: it stands at the origin and becomes a keyframe.
+  Sighting sight_first(const Frame& frame, FrameReport& report);
+  /// Any other: predicts its pose, tracks it and decides whether it becomes a keyframe.
+  Sighting sight(const Frame& frame, FrameReport& report);
   bool wants_keyframe(const FrameReport& report) const;
-  void map_newest(FrameReport& report);
-  void measure(FrameReport& report) const;
-  void release_newest();
-  bool looks_lost(const TrackingResult& result) const;
-  TrackingResult retry(FrameHandle handle, const TrackingSettings& tracking, TrackingResult best,
-                       FrameReport& report);
-  void add_keyframe(const Frame& frame, FrameHandle handle, const Pose& world_to_camera);
-  void map_window(FrameReport& report);
-  void align_to(std::vector<int> members);
-  void optimise(const std::vector<int>& order, const std::vector<int>& refined, FrameReport& report);
-  void judge(const std::vector<int>& members, FrameReport& report);
-  void densify();
+
+  // Mapping, of the last frame of the history.
+
+  /// Runs `mapping`; where that throws, SLAM is broken. `told` says whether the newest keyframe's pose has
+  /// been returned by an earlier call.
+  template <typename Mapping>
+  void change_map(bool told, Mapping mapping) {
+    try {
+      mapping();
+    } catch (...) {
+      note_break();
+      note_moves(told);
+      throw;
+    }
+    note_moves(told);
+  }
+  void begin_map(const Frame& frame, Sighting sighting);
+  void extend_map(const Frame& frame, Sighting sighting);
+  void map_keyframe(const Frame& frame, Sighting sighting);
+  void add_keyframe(const Frame& frame, Sighting sighting);
+  void measure();
+  void note_break();
+  void note_moves(bool told);
 };
 
 }  // namespace surefield

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
 #include <utility>
 
 #include "engine/slam/surface_normal.h"
+#include "engine/types/error.h"
 #include "engine/types/median.h"
 
 namespace surefield {
@@ -65,7 +65,7 @@ double scene_extent(const Frame& frame, double depth_max) {
       const float z = frame.depth.at<float>(v, u);
       if (z > 0 && z <= depth_max) depths.push_back(z);
     }
-  if (depths.empty()) throw std::invalid_argument("the first frame has no valid depth");
+  if (depths.empty()) throw InputError("the first frame has no valid depth");
   const auto at = depths.begin() + static_cast<std::ptrdiff_t>(depths.size() * 9 / 10);
   std::nth_element(depths.begin(), at, depths.end());
   return *at;

@@ -6,7 +6,7 @@
 namespace surefield {
 
 /// Size of the scene that rates and scales are measured by, metres: the depth that nine tenths of the first
-/// frame lie within. Throws std::invalid_argument where it has no valid depth.
+/// frame lie within. Throws InputError where it has no valid depth.
 double scene_extent(const Frame& frame, double depth_max);
 
 /// New Gaussians for what `frame` sees and the map does not show (paper section 3.3): one per pixel with

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <stdexcept>
 
 #include "engine/splat/adam_tracker.h"
 #include "engine/splat/densifier.h"
@@ -11,6 +10,7 @@
 #include "engine/splat/map_blocks.h"
 #include "engine/splat/mapper.h"
 #include "engine/splat/uncertainty.h"
+#include "engine/types/error.h"
 
 namespace surefield {
 
@@ -155,7 +155,7 @@ TrackingResult SplatEngine::track(FrameHandle frame, const Camera& start, const 
        references.first(std::min(references.size(), GaussNewtonTracker::kReferences))) {
     const Intrinsics& k = reference.camera.intrinsics;
     if (k.width != start.intrinsics.width || k.height != start.intrinsics.height)
-      throw std::invalid_argument("a keyframe to align a frame to is not of the frame's size");
+      throw UsageError("a keyframe to align a frame to is not of the frame's size");
     if (!i.gauss_newton_tracker.holds(cameras.size(), reference.frame))
       i.gauss_newton_tracker.hold(cameras.size(), reference.frame, i.frames.on_device(reference.frame),
                                   reference.camera.intrinsics);

@@ -57,7 +57,7 @@ class SplatEngine {
   RenderImages render_whole(const Camera& camera) const;
 
   /// Finds the pose of a frame in the fixed map, starting from that of `start`. Gauss-Newton aligns it to the
-  /// first four `references` too; Adam does not. Throws std::invalid_argument where one is of another size.
+  /// first four `references` too; Adam does not. Throws UsageError where one is of another size.
   TrackingResult track(FrameHandle frame, const Camera& start, const TrackingSettings& settings,
                        std::span<const TrackingReference> references = {});
 

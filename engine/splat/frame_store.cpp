@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "engine/types/error.h"
+
 namespace surefield {
 
 /// Makes all places at once, so that a later frame allocates nothing.
@@ -32,7 +34,9 @@ void FrameStore::release(FrameHandle frame) {
 }
 
 const SensorFrame& FrameStore::on_device(FrameHandle frame) {
-  Entry& entry = entries_.at(frame);
+  const auto held = entries_.find(frame);
+  if (held == entries_.end()) throw UsageError("the engine does not hold this frame");
+  Entry& entry = held->second;
   if (!entry.place) {
     const std::size_t at = free_place();
     unpack(entry, places_[at].images);

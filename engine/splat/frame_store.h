@@ -21,7 +21,7 @@ class FrameStore {
   void release(FrameHandle frame);
 
   /// The frame on the device, brought there if need be; the reference is good for the next kPlaces - 1 calls.
-  /// Throws std::out_of_range for a frame that is not held.
+  /// Throws UsageError for a frame that is not held.
   const SensorFrame& on_device(FrameHandle frame);
 
  private:

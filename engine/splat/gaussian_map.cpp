@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cstring>
-#include <stdexcept>
 
 #include "engine/gpu/recorder.h"
+#include "engine/types/error.h"
 
 namespace surefield {
 
@@ -75,8 +75,8 @@ void GaussianMap::assign(const GaussianCloud& cloud, DepthModel depth_model) {
 }
 
 void GaussianMap::append(const GaussianCloud& cloud) {
-  if (cloud.sh_degree != sh_degree_) throw std::invalid_argument("the clouds have different SH degrees");
-  if (!cloud.is_consistent()) throw std::invalid_argument("the arrays of the cloud differ in length");
+  if (cloud.sh_degree != sh_degree_) throw UsageError("the clouds have different SH degrees");
+  if (!cloud.is_consistent()) throw UsageError("the arrays of the cloud differ in length");
   const uint32_t first = size_;
   reserve(first + static_cast<uint32_t>(cloud.size()));
   write(cloud, first);

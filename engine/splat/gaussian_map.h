@@ -34,7 +34,7 @@ class GaussianMap {
   /// Replaces the map by Gaussians whose depth over their footprints is `depth_model`, which stays that of
   /// the map until the next assign(). Moments and statistics start at zero.
   void assign(const GaussianCloud& cloud, DepthModel depth_model = DepthModel::Plane);
-  /// Adds Gaussians at the end; their moments and statistics start at zero. Throws std::invalid_argument when
+  /// Adds Gaussians at the end; their moments and statistics start at zero. Throws UsageError when
   /// the degree of the spherical harmonics differs from that of a map that is not empty, or the arrays of the
   /// cloud differ in length.
   void append(const GaussianCloud& cloud);

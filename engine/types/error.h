@@ -6,8 +6,8 @@
 
 namespace surefield {
 
-/// What every exception of this library derives from. `what()` is one line that names the thing and the way
-/// out.
+/// What all exceptions of this library derive from, those of the standard library apart (std::bad_alloc). The
+/// message is one clear line that names the thing and the way out.
 class Error : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
@@ -27,6 +27,18 @@ class InputError : public Error {
   /// "file:line: problem"; `line` counts from 1.
   InputError(const std::filesystem::path& file, int line, const std::string& problem)
       : Error(file.string() + ":" + std::to_string(line) + ": " + problem) {}
+};
+
+/// A call that its contract forbids: the caller's mistake, not the user's. Nothing has changed.
+class UsageError : public Error {
+ public:
+  using Error::Error;
+};
+
+/// A call that came too late: the object has ended or is broken, and the message says by what.
+class StateError : public UsageError {
+ public:
+  using UsageError::UsageError;
 };
 
 /// A failure of the Vulkan device or its driver.

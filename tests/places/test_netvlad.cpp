@@ -114,6 +114,6 @@ TEST_CASE("netvlad without a network says what to do, and with one it fills the 
   const TemporaryFolder folder;
   const auto file = folder.write("small.onnx", to_onnx(small_netvlad()));
   Covisibility covisibility({.covisibility = CovisibilityKind::NetVlad, .netvlad = file.string()});
-  for (int i = 0; i < 3; ++i) covisibility.add({.colour = image()});
+  for (int i = 0; i < 3; ++i) covisibility.add(covisibility.describe({.colour = image()}));
   CHECK(covisibility.similar() == std::vector<int>{0});
 }

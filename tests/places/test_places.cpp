@@ -149,8 +149,8 @@ TEST_CASE("the window of descriptors takes keyframes that look alike, wherever t
   for (int k = 0; k < 6; ++k) {
     keyframes.push_back(far_away(k));
     const Frame frame = frame_of(view(wall(k == 1 || k == 5 ? 1 : 2), 20 * k));
-    vlad.add(frame);
-    geometric.add(frame);
+    vlad.add(vlad.describe(frame));
+    geometric.add(geometric.describe(frame));
   }
   CHECK(vlad.similar() == std::vector<int>{1});
   CHECK(geometric.similar().empty());

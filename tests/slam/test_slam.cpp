@@ -2,37 +2,16 @@
 
 #include <algorithm>
 #include <numeric>
-#include <stdexcept>
 
 #include "engine/eval/trajectory_metrics.h"
-#include "engine/slam/slam.h"
 #include "engine/sources/frame_stream.h"
-#include "engine/synth/synthetic_dataset.h"
 #include "engine/types/error.h"
-#include "tests/support/device.h"
+#include "tests/slam/office.h"
 
 using namespace surefield;
+using namespace surefield::testing;
 
 namespace {
-
-EngineOptions options() {
-  const gpu::DeviceOptions device = testing::device_options();
-  return {.device = device.selector, .validate = true};
-}
-
-SyntheticDataset office(int frames) {
-  return SyntheticDataset(testing::device_options(), {.width = 96, .height = 72, .frames = frames});
-}
-
-SlamSettings quick() {
-  SlamSettings settings;
-  settings.depth_max = 10;
-  settings.first_iterations = 40;
-  settings.mapping_iterations = 10;
-  settings.first_tracking_iterations = 25;
-  settings.keyframes.interval = 3;
-  return settings;
-}
 
 struct Run {
   Trajectory trajectory;
@@ -44,7 +23,7 @@ struct Run {
 Run run(int frames, const SlamSettings& settings) {
   const SyntheticDataset dataset = office(frames);
   FrameStream stream(dataset, {});
-  Slam slam(settings, stream.intrinsics(), options());
+  Slam slam(settings, stream.intrinsics(), engine_options());
   while (const auto frame = stream.next()) slam.feed(*frame);
   slam.finish();
   CHECK(slam.engine_report().validation_messages.empty());
@@ -56,7 +35,7 @@ Run run(int frames, const SlamSettings& settings) {
 }  // namespace
 
 TEST_CASE("SLAM follows the synthetic office, and the same run gives the same bits") {
-  const Run first = run(6, quick());
+  const Run first = run(6, quick_settings());
   REQUIRE(first.trajectory.size() == 6);
   CHECK(evaluate_trajectory(first.trajectory, first.truth).ate.rmse < 0.01);
   CHECK(first.reports[0].keyframe);
@@ -67,7 +46,7 @@ TEST_CASE("SLAM follows the synthetic office, and the same run gives the same bi
   for (const FrameReport& report : first.reports) CHECK_FALSE(report.lost);
   for (float logit : first.map.opacity_logits) REQUIRE(std::isfinite(logit));
 
-  const Run second = run(6, quick());
+  const Run second = run(6, quick_settings());
   for (std::size_t i = 0; i < 6; ++i)
     CHECK(first.trajectory[i].camera_to_world.matrix() == second.trajectory[i].camera_to_world.matrix());
   CHECK(first.map.means == second.map.means);
@@ -77,8 +56,8 @@ TEST_CASE("SLAM follows the synthetic office, and the same run gives the same bi
 TEST_CASE("settings that are changed count from the next frame on") {
   const SyntheticDataset dataset = office(5);
   FrameStream stream(dataset, {});
-  SlamSettings settings = quick();
-  Slam slam(settings, stream.intrinsics(), options());
+  SlamSettings settings = quick_settings();
+  Slam slam(settings, stream.intrinsics(), engine_options());
   slam.feed(*stream.next());
   CHECK(slam.window() == std::vector{0});
   slam.feed(*stream.next());
@@ -92,7 +71,7 @@ TEST_CASE("settings that are changed count from the next frame on") {
 }
 
 TEST_CASE("the keyframes of the window judge the map's Gaussians, unless told not to") {
-  SlamSettings settings = quick();
+  SlamSettings settings = quick_settings();
   settings.first_iterations = settings.mapping_iterations = 2;
   for (const double above : {0.0, 1e-9}) {
     settings.mapping.uncertainty_above = above;
@@ -106,7 +85,7 @@ TEST_CASE("the keyframes of the window judge the map's Gaussians, unless told no
 }
 
 TEST_CASE("a run on a small budget of device memory keeps to it, and its map is that of the whole run") {
-  SlamSettings settings = quick();
+  SlamSettings settings = quick_settings();
   settings.first_iterations = 20;
   settings.map_device_mb = 3;
   settings.keyframes.near = 2;
@@ -126,11 +105,11 @@ TEST_CASE("a run on a small budget of device memory keeps to it, and its map is 
 TEST_CASE("the map keeps its exposure where the camera's changes, if it is told to") {
   const SyntheticDataset dataset = office(4);
   const auto brightness_of_last = [&](bool exposure, double gain) {
-    SlamSettings settings = quick();
+    SlamSettings settings = quick_settings();
     settings.mapping_iterations = 40;
     settings.keyframes.exposure = exposure;
     settings.lost.loss_jump = 1e6;
-    Slam slam(settings, dataset.intrinsics(), options());
+    Slam slam(settings, dataset.intrinsics(), engine_options());
     for (int i = 0; i < 4; ++i) {
       Frame frame = *dataset.load(i).frame;
       if (i == 3) frame.colour.convertTo(frame.colour, -1, gain);
@@ -146,19 +125,19 @@ TEST_CASE("the map keeps its exposure where the camera's changes, if it is told 
 }
 
 TEST_CASE("a run whose windows are chosen by images follows the office") {
-  SlamSettings settings = quick();
+  SlamSettings settings = quick_settings();
   settings.keyframes.covisibility = CovisibilityKind::Vlad;
   settings.keyframes.window = 3;
   const Run first = run(9, settings);
   CHECK(evaluate_trajectory(first.trajectory, first.truth).ate.rmse < 0.02);
   for (const FrameReport& report : first.reports) CHECK_FALSE(report.lost);
   settings.keyframes.covisibility = CovisibilityKind::NetVlad;
-  CHECK_THROWS_AS(Slam(settings, Intrinsics{}, options()), InputError);
+  CHECK_THROWS_AS(Slam(settings, Intrinsics{}, engine_options()), InputError);
 }
 
 TEST_CASE("a frame that shows something else is reported as lost after re-tries, and the run goes on") {
   const SyntheticDataset dataset = office(6);
-  Slam slam(quick(), dataset.intrinsics(), options());
+  Slam slam(quick_settings(), dataset.intrinsics(), engine_options());
   for (int i = 0; i < 3; ++i) slam.feed(*dataset.load(i).frame);
   Frame covered = *dataset.load(3).frame;
   covered.depth.setTo(0.3f);
@@ -173,12 +152,12 @@ TEST_CASE("a frame that shows something else is reported as lost after re-tries,
 
 TEST_CASE("frames of the wrong size and a first frame without depth are refused and change nothing") {
   const SyntheticDataset dataset = office(2);
-  Slam slam(quick(), dataset.intrinsics(), options());
+  Slam slam(quick_settings(), dataset.intrinsics(), engine_options());
   Frame blind = *dataset.load(0).frame;
   blind.depth.setTo(0);
-  CHECK_THROWS_AS(slam.feed(blind), std::invalid_argument);
+  CHECK_THROWS_AS(slam.feed(blind), InputError);
   Frame small = resize_frame(*dataset.load(0).frame, 0.5);
-  CHECK_THROWS_AS(slam.feed(small), std::invalid_argument);
+  CHECK_THROWS_AS(slam.feed(small), UsageError);
   CHECK(slam.trajectory().empty());
   slam.feed(*dataset.load(0).frame);
   CHECK(slam.trajectory().size() == 1);

@@ -2,9 +2,9 @@
 
 #include <bit>
 #include <cmath>
-#include <stdexcept>
 
 #include "engine/splat/frame_store.h"
+#include "engine/types/error.h"
 #include "tests/support/device.h"
 
 using namespace surefield;
@@ -85,7 +85,7 @@ TEST_CASE("the frames asked for last stay on the device, and the place of a rele
   for (std::size_t i = 1; i < FrameStore::kPlaces; ++i) store.on_device(frames[i]);
   CHECK(&store.on_device(frames[0]) == &held);
   store.release(frames[0]);
-  CHECK_THROWS_AS(store.on_device(frames[0]), std::out_of_range);
+  CHECK_THROWS_AS(store.on_device(frames[0]), UsageError);
   const FrameHandle successor = store.load(Images(20).view());
   CHECK(&store.on_device(successor) == &held);
   check_holds(store, successor, 20);

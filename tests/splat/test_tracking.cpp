@@ -3,6 +3,7 @@
 #include "engine/gpu/recorder.h"
 #include "engine/splat/adam_tracker.h"
 #include "engine/splat/gauss_newton_tracker.h"
+#include "engine/types/error.h"
 #include "tests/splat/wall.h"
 #include "tests/support/device.h"
 
@@ -136,7 +137,7 @@ TEST_CASE("the engine aligns frames to the keyframes that it is given, also when
     CHECK(error(keyframes) < alone / 2);
     TrackingReference other = keyframes[0];
     other.camera.intrinsics.width += 1;
-    CHECK_THROWS_AS(engine.track(frame, here, settings, std::span(&other, 1)), std::invalid_argument);
+    CHECK_THROWS_AS(engine.track(frame, here, settings, std::span(&other, 1)), UsageError);
   }
 }
 

@@ -6,6 +6,7 @@
 #include "engine/gpu/recorder.h"
 #include "engine/splat/map_rebuild.h"
 #include "engine/splat/uncertainty.h"
+#include "engine/types/error.h"
 #include "tests/reference/scenes.h"
 #include "tests/reference/splatting.h"
 #include "tests/reference/uncertainty.h"
@@ -188,7 +189,7 @@ TEST_CASE("what is born of an uncertain Gaussian is not uncertain, what is kept 
                                                         0u | glsl::SOURCE_CLONE, 1u | glsl::SOURCE_SPLIT});
   CHECK(map.download().uncertainty == std::vector<float>{0.125f, 0.5f, 0, 0});
   cloud.uncertainty.pop_back();
-  CHECK_THROWS_AS(map.append(cloud), std::invalid_argument);
+  CHECK_THROWS_AS(map.append(cloud), UsageError);
 }
 
 TEST_CASE(

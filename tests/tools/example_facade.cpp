@@ -26,7 +26,7 @@ int main() {
 
     Slam slam(settings, stream.intrinsics(), engine);
     while (const auto frame = stream.next()) {
-      const FrameReport& report = slam.feed(*frame);
+      const FrameReport report = slam.feed(*frame);
       const Eigen::Vector3d position = report.world_to_camera.inverse().translation();
       std::printf("frame %d: camera at %.3f %.3f %.3f m, %u Gaussians\n", report.index, position.x(),
                   position.y(), position.z(), report.gaussians);

@@ -99,7 +99,7 @@ class Feeder {
  private:
   void feed(const Frame& frame) {
     try {
-      const FrameReport& report = slam_.feed(frame);
+      const FrameReport report = slam_.feed(frame);
       log_.log(
           report.lost ? spdlog::level::warn : spdlog::level::info,
           "frame {}:{}{} loss {:.5f}, valid {:.3f}, tracking {} its {:.0f} ms, mapping {} its {:.0f} ms, "
@@ -114,6 +114,7 @@ class Feeder {
     } catch (const std::bad_alloc&) {
       throw;
     } catch (const std::exception&) {
+      if (!slam_.usable()) throw;
       skip({frame.index, describe_current_exception()});
     }
   }

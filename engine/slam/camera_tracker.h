@@ -1,0 +1,51 @@
+#pragma once
+
+#include <deque>
+
+#include "engine/slam/frame_history.h"
+#include "engine/slam/keyframe_graph.h"
+
+namespace surefield {
+
+/// Finds where the camera is: predicts its pose, tracks it in the map as it stands, and judges whether it is
+/// lost. Remembers how well it went of late.
+class CameraTracker {
+ public:
+  /// All of them outlive the tracker; `settings` may change from frame to frame.
+  CameraTracker(SplatEngine& engine, const SlamSettings& settings, const Intrinsics& intrinsics,
+                const KeyframeGraph& keyframes, const FrameHistory& history)
+      : engine_(engine),
+        settings_(settings),
+        intrinsics_(intrinsics),
+        keyframes_(keyframes),
+        history_(history) {}
+
+  /// Where the next frame is thought to be, world to camera. Needs a frame before it.
+  Pose predict() const;
+  /// Tracks a frame from `start`, and where that fails from other poses; fills the report's pose and what it
+  /// says of tracking. Changes nothing else.
+  void track(FrameHandle image, const Pose& start, FrameReport& report) const;
+  /// Whether the map explains so much less of a frame's depth than of that of the first frame tracked after
+  /// the last keyframe that there should be another.
+  bool sees_unmapped(const FrameReport& report) const;
+
+  /// The frame that was tracked counts.
+  void accept(const FrameReport& report);
+  /// There is a new keyframe.
+  void begin_keyframe() { valid_after_keyframe_ = 0; }
+
+ private:
+  bool looks_lost(const TrackingResult& result) const;
+  TrackingResult retry(FrameHandle image, const TrackingSettings& tracking, TrackingResult best,
+                       FrameReport& report) const;
+
+  SplatEngine& engine_;
+  const SlamSettings& settings_;
+  const Intrinsics intrinsics_;
+  const KeyframeGraph& keyframes_;
+  const FrameHistory& history_;
+  std::deque<double> recent_losses_;
+  double valid_after_keyframe_ = 0;  ///< valid_fraction of the first frame tracked after it; 0: none yet
+};
+
+}  // namespace surefield

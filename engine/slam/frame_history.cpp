@@ -1,0 +1,39 @@
+#include "engine/slam/frame_history.h"
+
+namespace surefield {
+
+void FrameHistory::add(const FrameReport& report) {
+  FrameRecord record{report, keyframes_.newest(), report.world_to_camera};
+  if (!keyframes_.empty())
+    record.keyframe_to_frame = report.world_to_camera * keyframes_.world_to_camera(record.keyframe).inverse();
+  records_.push_back(record);
+}
+
+void FrameHistory::make_last_keyframe() {
+  FrameRecord& last = records_.back();
+  last.report.keyframe = true;
+  last.keyframe = keyframes_.newest();
+  last.keyframe_to_frame = Pose::Identity();
+  last_keyframe_ = records_.size() - 1;
+}
+
+Pose FrameHistory::world_to_camera(std::size_t i) const {
+  const FrameRecord& record = records_[i];
+  if (record.keyframe < 0) return record.keyframe_to_frame;
+  return record.keyframe_to_frame * keyframes_.world_to_camera(record.keyframe);
+}
+
+Trajectory FrameHistory::trajectory() const {
+  Trajectory trajectory;
+  for (std::size_t i = 0; i < records_.size(); ++i)
+    trajectory.push_back({records_[i].report.timestamp, world_to_camera(i).inverse()});
+  return trajectory;
+}
+
+std::vector<FrameReport> FrameHistory::reports() const {
+  std::vector<FrameReport> reports;
+  for (const FrameRecord& record : records_) reports.push_back(record.report);
+  return reports;
+}
+
+}  // namespace surefield

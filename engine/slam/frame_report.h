@@ -1,0 +1,29 @@
+#pragma once
+
+#include <cstdint>
+
+#include "engine/types/camera.h"
+
+namespace surefield {
+
+/// What happened to one frame.
+struct FrameReport {
+  int index = 0;         ///< Frame::index
+  double timestamp = 0;  ///< seconds
+  Pose world_to_camera = Pose::Identity();
+  bool keyframe = false;
+  bool lost = false;  ///< tracking failed even after the re-tries; the pose is the best found
+  int retries = 0;    ///< other starting poses that were tried
+  double tracking_loss = 0;
+  double valid_fraction = 0;  ///< pixels that took part in tracking, of those with sensor depth
+  int tracking_iterations = 0;
+  double tracking_ms = 0;
+  int mapping_iterations = 0;
+  double mapping_ms = 0;
+  uint32_t gaussians = 0;            ///< in the map after this frame
+  uint32_t uncertain_gaussians = 0;  ///< on the device when the frame's mapping judged them
+  uint32_t device_gaussians = 0;     ///< of these, on the device
+  uint64_t device_bytes = 0;         ///< device memory in use after this frame
+};
+
+}  // namespace surefield

@@ -1,0 +1,76 @@
+#include "engine/slam/map_upkeep.h"
+
+#include <algorithm>
+#include <map>
+
+#include "engine/slam/exposure.h"
+#include "engine/slam/spawn.h"
+
+namespace surefield {
+
+void MapUpkeep::begin(const Frame& frame) {
+  extent_ = scene_extent(frame, settings_.depth_max);
+  const Camera& camera = keyframes_[keyframes_.newest()].camera;
+  engine_.assign(spawn_gaussians(frame, camera, nullptr, settings_.spawn, settings_.depth_max),
+                 settings_.depth_model);
+}
+
+void MapUpkeep::spawn(const Frame& frame) {
+  const int newest = keyframes_.newest();
+  const Camera& camera = keyframes_[newest].camera;
+  const RenderImages rendered = engine_.render(camera);
+  Eigen::Vector3f gains = keyframes_[newest].gains;
+  if (settings_.keyframes.exposure) gains = fit_gains(frame, rendered, settings_.depth_max).value_or(gains);
+  keyframes_.set_gains(newest, gains);
+  const GaussianCloud births =
+      spawn_gaussians(frame, camera, &rendered, settings_.spawn, settings_.depth_max, gains);
+  region_.settle(keyframes_.all(), keyframes_.similar(), static_cast<uint32_t>(births.size()));
+  engine_.insert(births);
+}
+
+MappingPlan MapUpkeep::plan(const KeyframeWindow& window) {
+  const auto order = mapping_order(window, near(), settings_.mapping_iterations,
+                                   settings_.keyframes.past_keyframes, random_);
+  const auto middle = order.begin() + static_cast<std::ptrdiff_t>(order.size() / 2);
+  MappingPlan plan{{order.begin(), middle}, {middle, order.end()}, {}};
+  const MappingSettings& mapping = settings_.mapping;
+  if (mapping.rate_pose_rotation > 0 || mapping.rate_pose_translation > 0)
+    std::copy_if(window.members.begin(), window.members.end(), std::back_inserter(plan.refined),
+                 [&](int member) { return member != window.fixed; });
+  return plan;
+}
+
+void MapUpkeep::optimise(const std::vector<int>& order, const std::vector<int>& refined,
+                         FrameReport& report) {
+  std::vector<MappingView> views;
+  std::map<int, int> view_of_keyframe;
+  std::vector<int> steps;
+  for (int k : order) {
+    const auto [entry, is_new] = view_of_keyframe.try_emplace(k, static_cast<int>(views.size()));
+    if (is_new)
+      views.push_back({keyframes_[k].frame, keyframes_[k].camera,
+                       std::find(refined.begin(), refined.end(), k) != refined.end(), keyframes_[k].gains});
+    steps.push_back(entry->second);
+  }
+  const MappingResult result = engine_.optimise(views, steps, settings_.mapping, extent_);
+  for (const auto& [k, view] : view_of_keyframe) keyframes_.move(k, views[view].camera.world_to_camera);
+  report.mapping_iterations += result.iterations;
+  report.mapping_ms += result.milliseconds;
+}
+
+void MapUpkeep::judge(const std::vector<int>& members, FrameReport& report) {
+  std::vector<MappingView> views;
+  for (int member : members) views.push_back({keyframes_[member].frame, keyframes_[member].camera, false});
+  const JudgeResult result = engine_.judge(views, settings_.mapping);
+  report.uncertain_gaussians = result.uncertain;
+  report.mapping_ms += result.milliseconds;
+}
+
+void MapUpkeep::densify() {
+  DensifySettings densify = settings_.densify;
+  densify.extent = extent_;
+  densify.seed = random_();
+  engine_.densify(densify);
+}
+
+}  // namespace surefield

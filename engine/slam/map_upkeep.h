@@ -1,0 +1,63 @@
+#pragma once
+
+#include <random>
+#include <vector>
+
+#include "engine/slam/active_region.h"
+#include "engine/slam/frame_report.h"
+#include "engine/slam/keyframe_graph.h"
+
+namespace surefield {
+
+/// Which keyframes the steps of one mapping call visit, and whose poses they refine.
+struct MappingPlan {
+  std::vector<int> first_half;
+  std::vector<int> second_half;
+  std::vector<int> refined;
+};
+
+/// Keeps the map: gives birth to Gaussians, optimises them over keyframes, takes back what is uncertain,
+/// splits and removes, and has on the device what is worked on. Every random choice of a run is drawn here.
+class MapUpkeep {
+ public:
+  /// All of them outlive this; `settings` may change from frame to frame.
+  MapUpkeep(SplatEngine& engine, const SlamSettings& settings, KeyframeGraph& keyframes)
+      : engine_(engine),
+        settings_(settings),
+        keyframes_(keyframes),
+        region_(engine, settings),
+        random_(static_cast<uint32_t>(settings.seed)) {}
+
+  /// Before a frame is tracked: has on the device what it sees from about `world_to_camera`. `points` are its
+  /// sample_points(). The map stays the same.
+  void approach(const std::vector<Eigen::Vector3f>& points, const Pose& world_to_camera) {
+    region_.approach(keyframes_.all(), points, world_to_camera);
+  }
+
+  /// Begins the map with what the first keyframe, `frame`, sees.
+  void begin(const Frame& frame);
+  /// Adds what the newest keyframe, `frame`, sees and the map does not show, and settles on the keyframes
+  /// near it that the next steps work with.
+  void spawn(const Frame& frame);
+  /// Those keyframes, the newest included.
+  const std::vector<int>& near() const { return region_.near(); }
+  /// Draws the order of a mapping call over a window.
+  MappingPlan plan(const KeyframeWindow& window);
+
+  /// Optimises the map over these keyframes, one step each, and the poses of those of `refined`.
+  void optimise(const std::vector<int>& order, const std::vector<int>& refined, FrameReport& report);
+  /// Takes the opacity from Gaussians that are uncertain over these keyframes.
+  void judge(const std::vector<int>& members, FrameReport& report);
+  /// Splits, clones and removes Gaussians.
+  void densify();
+
+ private:
+  SplatEngine& engine_;
+  const SlamSettings& settings_;
+  KeyframeGraph& keyframes_;
+  ActiveRegion region_;
+  std::mt19937 random_;
+  double extent_ = 1;  ///< of the scene, metres
+};
+
+}  // namespace surefield
