@@ -13,7 +13,7 @@ namespace {
 constexpr int kFirstSteps[] = {4, 4, 6};
 constexpr int kLaterSteps = 4;
 // Of the finest level every third pixel takes part: a third of the time, and no less accurate
-// (docs/results.md).
+// (docs/experiments.md).
 constexpr uint32_t kStrides[] = {3, 1, 1};
 // Tracking ends when an alignment has moved the camera by less, radians and metres.
 constexpr double kStill = 3e-4;
