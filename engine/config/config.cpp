@@ -62,6 +62,11 @@ NumberSetting ConfigSchema::number(const std::string& key) const {
   return entry->number();
 }
 
+void ConfigSchema::renamed(const std::string& old, const std::string& key) {
+  if (find(old) || !find(key)) throw std::logic_error(old + " cannot be an old name of " + key);
+  renamed_[old] = key;
+}
+
 bool ConfigSchema::is_section(const std::string& key) const {
   return std::any_of(entries_.begin(), entries_.end(),
                      [&](const Entry& entry) { return entry.key.starts_with(key + "."); });
@@ -76,6 +81,8 @@ std::string ConfigSchema::apply(const std::string& key, const YAML::Node& value)
     // "tracking:" with nothing below it sets nothing.
     return value.IsNull() ? "" : fmt::format("{} is a section, not a value; its keys go below it", key);
   }
+  if (const auto found = renamed_.find(key); found != renamed_.end())
+    return fmt::format("the key {} has been renamed; use {}", key, found->second);
   if (entries_.empty()) return "unknown key " + key;
   const auto nearest = std::min_element(
       entries_.begin(), entries_.end(),
@@ -101,7 +108,7 @@ void ConfigSchema::apply_all(const std::vector<ConfigValue>& values) const {
 void ConfigSchema::set(const std::string& assignment) {
   const auto equals = assignment.find('=');
   if (equals == std::string::npos || equals == 0) {
-    throw InputError("\"" + assignment + "\": expected key=value, for example tracking.iterations=40");
+    throw InputError("\"" + assignment + "\": expected key=value, for example mapping_iterations=40");
   }
   const std::string key = assignment.substr(0, equals);
   const std::string text = assignment.substr(equals + 1);

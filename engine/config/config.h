@@ -44,12 +44,12 @@ struct NumberSetting {
 ///
 ///   TrackingSettings tracking;
 ///   ConfigSchema schema;
-///   schema.add("tracking.iterations", &tracking.iterations, Range{1, 10000}, "steps per frame");
-///   schema.add("tracking.pose_gradient", &tracking.pose_gradient,
-///              Choices<PoseGradient>{{"full", PoseGradient::full}, {"light", PoseGradient::light}}, "terms
-///              used");
+///   schema.add("adam.iterations", &tracking.adam.iterations, Range{1, 10000}, "steps per frame");
+///   schema.add("adam.pose_gradient", &tracking.adam.pose_gradient,
+///              Choices<PoseGradientKind>{{"full", PoseGradientKind::Full}, {"light",
+///              PoseGradientKind::Light}}, "terms used");
 ///   schema.load_file("configs/tum.yaml");
-///   schema.set("tracking.iterations=40");
+///   schema.set("adam.iterations=40");
 ///
 /// The fields must outlive the schema and keep their addresses. `help` is one line: meaning and unit.
 class ConfigSchema {
@@ -71,11 +71,15 @@ class ConfigSchema {
   template <typename T>
   void add(const std::string& key, T* value, const Choices<T>& choices, const std::string& help);
 
+  /// Tells whoever gives the key `old` that its name is `key`, which has been added. Throws std::logic_error
+  /// where it has not, or where `old` is a key.
+  void renamed(const std::string& old, const std::string& key);
+
   /// Reads a YAML file; nested maps are dotted keys. A top-level key `base` names a file, relative to this
-  /// one, that is read first. Throws InputError with file, line and key for an unknown key (with the nearest
-  /// known one), a key given twice, and a value of the wrong type or out of range; fields read before it keep
-  /// their new values. Where the disk has no `file`, or no base file of that name, the one in `built_in` is
-  /// read.
+  /// one, that is read first. Throws InputError with file, line and key for an unknown key (with its
+  /// name where it was renamed, else the nearest known one), a key given twice, and a value of the wrong type
+  /// or out of range; fields read before it keep their new values. Where the disk has no `file`, or no base
+  /// file of that name, the one in `built_in` is read.
   void load_file(const std::filesystem::path& file, const BuiltInFiles& built_in = {});
 
   /// Reads the file `name` of `built_in`, whatever the disk holds; it must be there.
@@ -121,6 +125,7 @@ class ConfigSchema {
   std::string dump_section(const std::string& prefix, std::size_t depth) const;
 
   std::vector<Entry> entries_;
+  std::map<std::string, std::string> renamed_;  ///< by the old name
 };
 
 template <typename T>

@@ -22,7 +22,7 @@ Pose CameraTracker::predict() const {
 void CameraTracker::track(FrameHandle image, const Pose& start, FrameReport& report) const {
   TrackingSettings tracking = settings_.tracking;
   if (history_.size() == 1)
-    tracking.iterations = std::max(tracking.iterations, settings_.first_tracking_iterations);
+    tracking.adam.iterations = std::max(tracking.adam.iterations, tracking.adam.first_iterations);
   TrackingResult result = engine_.track(image, {intrinsics_, start}, tracking, keyframes_.references());
   report.tracking_iterations = result.iterations;
   report.tracking_ms = result.milliseconds;
@@ -37,8 +37,8 @@ void CameraTracker::track(FrameHandle image, const Pose& start, FrameReport& rep
 TrackingResult CameraTracker::retry(FrameHandle image, const TrackingSettings& tracking, TrackingResult best,
                                     FrameReport& report) const {
   TrackingSettings patient = tracking;
-  patient.iterations *= 2;
-  patient.renders *= 2;
+  patient.adam.iterations *= 2;
+  patient.gauss_newton.renders *= 2;
   for (const Pose& start :
        {history_.world_to_camera(history_.size() - 1), keyframes_.world_to_camera(keyframes_.newest())}) {
     if (!looks_lost(best)) break;

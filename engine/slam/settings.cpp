@@ -14,25 +14,25 @@ constexpr Range kRate{0, 1};
 constexpr Range kFactor{0, 1e6};
 constexpr Range kSteps{0, 100000};
 
+// Names that keys had in files of users, and those that they have.
+constexpr std::pair<const char*, const char*> kRenamed[] = {
+    {"first_tracking_iterations", "adam.first_iterations"},
+    {"tracking.iterations", "adam.iterations"},
+    {"tracking.rate_rotation", "adam.rate_rotation"},
+    {"tracking.rate_translation", "adam.rate_translation"},
+    {"tracking.pose_gradient", "adam.pose_gradient"},
+    {"tracking.stop_below", "adam.stop_below"},
+    {"tracking.renders", "gauss_newton.renders"},
+    {"tracking.balance", "gauss_newton.balance"},
+    {"tracking.references", "gauss_newton.references"},
+    {"tracking.reference_weight", "gauss_newton.reference_weight"}};
+
 void bind_tracking(ConfigSchema& schema, TrackingSettings& tracking) {
   schema.add(
       "tracking.method", &tracking.method,
       Choices<TrackingMethod>{{"gauss-newton", TrackingMethod::GaussNewton}, {"adam", TrackingMethod::Adam}},
-      "second-order alignment to a render and to keyframes, or the paper's gradient descent through the "
-      "renderer");
-  schema.add("tracking.renders", &tracking.renders, Range{1, 1000},
-             "gauss-newton: renders that a frame is aligned to, at most");
-  schema.add("tracking.balance", &tracking.balance, kWeight,
-             "gauss-newton: weight of the geometric residuals beside the photometric ones");
-  schema.add("tracking.references", &tracking.references, Range{0, 4},
-             "gauss-newton: keyframes of the window whose own images a frame is aligned to beside the "
-             "render, the newest first; 0: the render alone");
-  schema.add("tracking.reference_weight", &tracking.reference_weight, kWeight,
-             "gauss-newton: weight of each of them beside the render");
-  schema.add("tracking.iterations", &tracking.iterations, Range{1, 100000}, "adam: steps per frame, at most");
-  schema.add("tracking.rate_rotation", &tracking.rate_rotation, kRate, "adam: step of the rotation, radians");
-  schema.add("tracking.rate_translation", &tracking.rate_translation, kRate,
-             "adam: step of the translation, metres");
+      "second-order alignment to a render and to keyframes (keys under gauss_newton), or the paper's "
+      "gradient descent through the renderer (keys under adam)");
   schema.add("tracking.weight_colour", &tracking.weight_colour, kWeight,
              "lambda_1, weight of the mean colour difference (colours are 0 to 1)");
   schema.add("tracking.weight_depth", &tracking.weight_depth, kWeight,
@@ -46,11 +46,31 @@ void bind_tracking(ConfigSchema& schema, TrackingSettings& tracking) {
   schema.add("tracking.depth", &tracking.depth,
              Choices<DepthKind>{{"alpha", DepthKind::Alpha}, {"normalised", DepthKind::Normalised}},
              "rendered depth that is compared: blended as it is, or divided by the opacity");
-  schema.add("tracking.pose_gradient", &tracking.pose_gradient,
+}
+
+void bind_gauss_newton(ConfigSchema& schema, GaussNewtonSettings& gauss_newton) {
+  schema.add("gauss_newton.renders", &gauss_newton.renders, Range{1, 1000},
+             "renders that a frame is aligned to, at most");
+  schema.add("gauss_newton.balance", &gauss_newton.balance, kWeight,
+             "weight of the geometric residuals beside the photometric ones");
+  schema.add("gauss_newton.references", &gauss_newton.references, Range{0, 4},
+             "keyframes of the window whose own images a frame is aligned to beside the render, the newest "
+             "first; 0: the render alone");
+  schema.add("gauss_newton.reference_weight", &gauss_newton.reference_weight, kWeight,
+             "weight of each of them beside the render");
+}
+
+void bind_adam(ConfigSchema& schema, AdamSettings& adam) {
+  schema.add("adam.iterations", &adam.iterations, Range{1, 100000}, "steps per frame, at most");
+  schema.add("adam.first_iterations", &adam.first_iterations, Range{1, 100000},
+             "steps of the first tracked frame, at most, where these are more");
+  schema.add("adam.rate_rotation", &adam.rate_rotation, kRate, "step of the rotation, radians");
+  schema.add("adam.rate_translation", &adam.rate_translation, kRate, "step of the translation, metres");
+  schema.add("adam.pose_gradient", &adam.pose_gradient,
              Choices<PoseGradientKind>{{"full", PoseGradientKind::Full}, {"light", PoseGradientKind::Light}},
-             "adam: terms of the pose's gradient: all, or those through the projected centre and the depth");
-  schema.add("tracking.stop_below", &tracking.stop_below, kRate,
-             "adam: tracking ends when all steps have become smaller, radians and metres; 0: never early");
+             "terms of the pose's gradient: all, or those through the projected centre and the depth");
+  schema.add("adam.stop_below", &adam.stop_below, kRate,
+             "tracking ends when all steps have become smaller, radians and metres; 0: never early");
 }
 
 void bind_mapping(ConfigSchema& schema, MappingSettings& mapping) {
@@ -155,13 +175,13 @@ void SlamSettings::bind(ConfigSchema& schema) {
       "memory");
   schema.add("first_iterations", &first_iterations, kSteps, "mapping steps on the first frame");
   schema.add("mapping_iterations", &mapping_iterations, kSteps, "mapping steps per keyframe");
-  schema.add("first_tracking_iterations", &first_tracking_iterations, Range{1, 100000},
-             "adam: steps of the first tracked frame, at most");
   schema.add("depth_model", &depth_model,
              Choices<DepthModel>{{"centre", DepthModel::Centre}, {"plane", DepthModel::Plane}},
              "depth of a Gaussian over its footprint: that of its centre, or that of a plane through it, "
              "which surefield render and view take for a map without its run");
   bind_tracking(schema, tracking);
+  bind_gauss_newton(schema, tracking.gauss_newton);
+  bind_adam(schema, tracking.adam);
   bind_mapping(schema, mapping);
   bind_keyframes(schema, keyframes);
   bind_spawn(schema, spawn);
@@ -170,6 +190,7 @@ void SlamSettings::bind(ConfigSchema& schema) {
              "a frame is lost when its loss is above this many times the mean of the last frames");
   schema.add("lost.minimum_valid", &lost.minimum_valid, kFraction,
              "or when a smaller fraction of the pixels with sensor depth took part in tracking");
+  for (const auto& [old, key] : kRenamed) schema.renamed(old, key);
 }
 
 }  // namespace surefield

@@ -46,12 +46,11 @@ struct LossDetectionSettings {
 
 /// Everything that shapes a run; one field per key of configs/base.yaml.
 struct SlamSettings {
-  int seed = 1;                         ///< drives every random choice
-  double depth_max = 5;                 ///< metres; depth beyond is invalid
-  double map_device_mb = 2048;          ///< most device memory of the Gaussians, 10^6 bytes
-  int first_iterations = 100;           ///< mapping steps on the first frame
-  int mapping_iterations = 40;          ///< mapping steps per keyframe
-  int first_tracking_iterations = 100;  ///< tracking steps of the first tracked frame
+  int seed = 1;                 ///< drives every random choice
+  double depth_max = 5;         ///< metres; depth beyond is invalid
+  double map_device_mb = 2048;  ///< most device memory of the Gaussians, 10^6 bytes
+  int first_iterations = 100;   ///< mapping steps on the first frame
+  int mapping_iterations = 40;  ///< mapping steps per keyframe
   DepthModel depth_model = DepthModel::Plane;
   TrackingSettings tracking;
   MappingSettings mapping;

@@ -76,7 +76,7 @@ void Slam::Implementation::begin_map(const Frame& frame, Sighting sighting) {
   upkeep.optimise(std::vector<int>(half, 0), {}, report);
   upkeep.densify();
   upkeep.optimise(std::vector<int>(settings.first_iterations - half, 0), {}, report);
-  keyframes.set_window({0}, settings.tracking.references);
+  keyframes.set_window({0}, settings.tracking.gauss_newton.references);
 }
 
 void Slam::Implementation::extend_map(const Frame& frame, Sighting sighting) {
@@ -103,7 +103,7 @@ void Slam::Implementation::map_keyframe(const Frame& frame, Sighting sighting) {
   upkeep.densify();
   upkeep.optimise(plan.second_half, plan.refined, report);
   report.world_to_camera = keyframes.world_to_camera(keyframes.newest());
-  keyframes.set_window(window.members, settings.tracking.references);
+  keyframes.set_window(window.members, settings.tracking.gauss_newton.references);
 }
 
 void Slam::Implementation::add_keyframe(const Frame& frame, Sighting sighting) {

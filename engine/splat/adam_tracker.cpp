@@ -27,8 +27,8 @@ void AdamTracker::record_step(gpu::Recorder& recorder, const Rasteriser& rasteri
                      .sums = loss.sums,
                      .camera = camera_,
                      .state = state_},
-                    {.rate_rotation = static_cast<float>(settings.rate_rotation),
-                     .rate_translation = static_cast<float>(settings.rate_translation),
+                    {.rate_rotation = static_cast<float>(settings.adam.rate_rotation),
+                     .rate_translation = static_cast<float>(settings.adam.rate_translation),
                      .weight_colour = static_cast<float>(settings.weight_colour),
                      .weight_depth = static_cast<float>(settings.weight_depth),
                      .sensor_pixels = static_cast<float>(frame.valid_pixels)});
@@ -49,14 +49,14 @@ TrackingResult AdamTracker::track(Rasteriser& rasteriser, TrackingLoss& loss, co
   const auto record = [&](std::size_t) {
     loss.record(recorder, rasteriser, map, view, frame, settings);
     loss.record_gradient(recorder, rasteriser, view, frame, settings);
-    rasteriser.record_backward_pose(recorder, map, view, settings.pose_gradient, Outputs::ColourDepth);
+    rasteriser.record_backward_pose(recorder, map, view, settings.adam.pose_gradient, Outputs::ColourDepth);
     record_step(recorder, rasteriser, loss, frame, settings);
   };
-  for (int done = 0; done < settings.iterations; done = static_cast<int>(state.adam.steps)) {
-    rasteriser.lists.submit(recorder, std::min(kBatch, settings.iterations - done), record);
+  for (int done = 0; done < settings.adam.iterations; done = static_cast<int>(state.adam.steps)) {
+    rasteriser.lists.submit(recorder, std::min(kBatch, settings.adam.iterations - done), record);
     state = state_.download(1)[0];
     const bool stuck = static_cast<int>(state.adam.steps) == done;
-    if (stuck || state.last_update < settings.stop_below) break;
+    if (stuck || state.last_update < settings.adam.stop_below) break;
   }
 
   TrackingResult result;

@@ -155,14 +155,14 @@ void GaussNewtonTracker::record_step(gpu::Recorder& recorder, const Rasteriser& 
                                     .strips = strips,
                                     .stride = kStrides[index],
                                     .weight = 1,
-                                    .balance = static_cast<float>(settings.balance),
+                                    .balance = static_cast<float>(settings.gauss_newton.balance),
                                     .source = 0,
                                     .first = 0};
   recorder.dispatch(
       sums_pass_, groups,
       {.state = state_, .points = level.points, .sensor = level.sensor, .partial_sums = partial_sums_},
       params);
-  params.weight = static_cast<float>(settings.reference_weight);
+  params.weight = static_cast<float>(settings.gauss_newton.reference_weight);
   for (const auto& points : std::span(level.reference_points).first(references)) {
     ++params.source;
     params.first += count;
@@ -208,7 +208,7 @@ TrackingResult GaussNewtonTracker::track(Rasteriser& rasteriser, TrackingLoss& l
   const View view = tracking_view(frame, camera_, settings);
   for (bool last = false; !last;) {
     const bool is_first = result.iterations == 0;
-    last = result.iterations >= settings.renders || (!is_first && motion_of(state) < kStill);
+    last = result.iterations >= settings.gauss_newton.renders || (!is_first && motion_of(state) < kStill);
     rasteriser.lists.submit(recorder, 1, [&](std::size_t) {
       loss.record(recorder, rasteriser, map, view, frame, settings);
       record_begin(recorder, rasteriser, loss, frame, settings);

@@ -38,24 +38,36 @@ struct FrameView {
 /// How tracking minimises its loss.
 enum class TrackingMethod { GaussNewton, Adam };
 
-/// How a pose is tracked (paper eq. 19 and 20).
-struct TrackingSettings {
-  TrackingMethod method = TrackingMethod::GaussNewton;
-  int renders = 1;       ///< Gauss-Newton: times that the map is rendered and aligned, at most
-  double balance = 1.5;  ///< Gauss-Newton: weight of the geometric residuals beside the photometric ones
-  int references = 4;    ///< Gauss-Newton: keyframes whose images a frame is aligned to, at most
-  double reference_weight = 1;        ///< Gauss-Newton: weight of each of them beside the render
-  int iterations = 35;                ///< Adam's steps, at most
-  double rate_rotation = 0.0015;      ///< Adam's step, radians
-  double rate_translation = 0.00215;  ///< Adam's step, metres
-  double weight_colour = 1.0;         ///< lambda_1
-  double weight_depth = 0.6;          ///< lambda_2
-  double minimum_opacity = 0.5;       ///< pixels take part where O is above
-  double outlier_factor = 10;         ///< and where the residual is below this many times the median
-  double uncertainty_above = 0.025;   ///< tau, m^2: more uncertain Gaussians take no part; 0: all do
-  DepthKind depth = DepthKind::Normalised;
+/// What second-order tracking does (docs/method.md, "Second-order tracking").
+struct GaussNewtonSettings {
+  int renders = 1;              ///< times that the map is rendered and aligned, at most
+  double balance = 1.5;         ///< weight of the geometric residuals beside the photometric ones
+  int references = 4;           ///< keyframes whose images a frame is aligned to, at most
+  double reference_weight = 1;  ///< weight of each of them beside the render
+};
+
+/// What tracking by Adam does (paper eq. 20).
+struct AdamSettings {
+  int iterations = 35;                ///< steps, at most
+  int first_iterations = 100;         ///< those of the first frame that Slam tracks, where they are more
+  double rate_rotation = 0.0015;      ///< step, radians
+  double rate_translation = 0.00215;  ///< step, metres
   PoseGradientKind pose_gradient = PoseGradientKind::Full;
   double stop_below = 2e-5;  ///< stop when steps of all pose numbers have become smaller (radians, metres)
+};
+
+/// How a pose is tracked: the loss (paper eq. 19 and 20), by which either method judges poses, and what each
+/// method does to lower it.
+struct TrackingSettings {
+  TrackingMethod method = TrackingMethod::GaussNewton;
+  double weight_colour = 1.0;        ///< lambda_1
+  double weight_depth = 0.6;         ///< lambda_2
+  double minimum_opacity = 0.5;      ///< pixels take part where O is above
+  double outlier_factor = 10;        ///< and where the residual is below this many times the median
+  double uncertainty_above = 0.025;  ///< tau, m^2: more uncertain Gaussians take no part; 0: all do
+  DepthKind depth = DepthKind::Normalised;
+  GaussNewtonSettings gauss_newton;
+  AdamSettings adam;
 };
 
 /// A keyframe whose images a frame is aligned to beside the map, with its camera, whose intrinsics are the

@@ -254,6 +254,20 @@ TEST_CASE("a number tells its range, its help and its value") {
   CHECK_THROWS_AS(schema.number("none"), std::logic_error);
 }
 
+TEST_CASE("a key that has been renamed leads to its name, in a file and on a command line") {
+  Bound bound;
+  bound.schema.renamed("steps", "tracking.iterations");
+  bound.schema.renamed("tracking.colour", "mapping.background");
+  CHECK(contains(input_error([&] { bound.schema.set("steps=3"); }),
+                 "the key steps has been renamed; use tracking.iterations"));
+  const TemporaryFolder folder;
+  const auto file = folder.write("c.yaml", "output: a\ntracking:\n  colour: [0, 1, 0]\n");
+  CHECK(contains(input_error([&] { bound.schema.load_file(file); }),
+                 "c.yaml:3: the key tracking.colour has been renamed; use mapping.background"));
+  CHECK_THROWS_AS(bound.schema.renamed("steps", "none"), std::logic_error);
+  CHECK_THROWS_AS(bound.schema.renamed("output", "tracking.iterations"), std::logic_error);
+}
+
 TEST_CASE("mistakes of the programmer are caught when a key is added") {
   ConfigSchema schema;
   int value = 1;

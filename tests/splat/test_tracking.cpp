@@ -54,8 +54,9 @@ TEST_CASE("Adam recovers a pose from a perturbed start") {
   t.map.assign(wall(120, 90, 90));
   const SensorFrame frame = frame_of(t.device, t.rasteriser, t.map, wall_camera());
   for (PoseGradientKind kind : {PoseGradientKind::Full, PoseGradientKind::Light}) {
-    const TrackingResult result = t.run(AdamTracker(t.device), frame, moved(0.017, 0.01),
-                                        {.iterations = 80, .minimum_opacity = 0.9, .pose_gradient = kind});
+    const TrackingResult result =
+        t.run(AdamTracker(t.device), frame, moved(0.017, 0.01),
+              {.minimum_opacity = 0.9, .adam = {.iterations = 80, .pose_gradient = kind}});
     const PoseError error = error_of(result, wall_camera());
     CHECK(error.metres < 2e-3);
     CHECK(error.radians < 1e-3);
@@ -73,7 +74,7 @@ TEST_CASE("Gauss-Newton recovers a pose from near and far, with either depth") {
       CAPTURE(start.first);
       const TrackingResult result =
           t.run(GaussNewtonTracker(t.device), frame, moved(start.first, start.second),
-                {.renders = 8, .minimum_opacity = 0.9, .depth = depth});
+                {.minimum_opacity = 0.9, .depth = depth, .gauss_newton = {.renders = 8}});
       const PoseError error = error_of(result, wall_camera());
       CHECK(error.metres < 1e-3);
       CHECK(error.radians < 5e-4);
@@ -93,7 +94,8 @@ TEST_CASE("a keyframe's own images pull the pose to where they fit, where the ma
   t.map.assign(shifted);
   GaussNewtonTracker tracker(t.device);
   const auto error = [&](std::span<const Camera> references) {
-    const TrackingSettings settings{.renders = 8, .reference_weight = 100, .minimum_opacity = 0.9};
+    const TrackingSettings settings{.minimum_opacity = 0.9,
+                                    .gauss_newton = {.renders = 8, .reference_weight = 100}};
     return error_of(tracker.track(t.rasteriser, t.loss, t.map, frame, wall_camera(), settings, references),
                     wall_camera())
         .metres;
@@ -112,7 +114,7 @@ TEST_CASE("the engine aligns frames to the keyframes that it is given, also when
   const auto load = [&](const Camera& camera) { return engine.load(Seen(engine.render(camera)).view()); };
   GaussianCloud shifted = wall(160, 120, 90);
   for (Eigen::Vector3f& mean : shifted.means) mean.x() += 0.006f;
-  const TrackingSettings settings{.reference_weight = 100, .minimum_opacity = 0.9};
+  const TrackingSettings settings{.minimum_opacity = 0.9, .gauss_newton = {.reference_weight = 100}};
   for (const double scale : {1.0, 0.5}) {
     CAPTURE(scale);
     engine.assign(wall(160, 120, 90));
@@ -148,8 +150,8 @@ TEST_CASE("tracking against an empty map, or in a tiny image, ends with the star
   Camera camera = wall_camera();
   const SensorFrame frame = frame_of(t.device, t.rasteriser, walls, camera);
   for (const TrackingResult& result :
-       {t.run(AdamTracker(t.device), frame, camera, {.iterations = 10}),
-        t.run(GaussNewtonTracker(t.device), frame, camera, {.iterations = 10})}) {
+       {t.run(AdamTracker(t.device), frame, camera, {.adam = {.iterations = 10}}),
+        t.run(GaussNewtonTracker(t.device), frame, camera, {})}) {
     CHECK(result.world_to_camera.isApprox(camera.world_to_camera));
     CHECK(result.valid_fraction == 0);
   }

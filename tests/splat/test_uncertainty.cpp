@@ -240,7 +240,7 @@ TEST_CASE("uncertain Gaussians take no part in tracking, but are rendered") {
   const std::size_t centre = 34 * 96 + 52;
   CHECK(with.engine.render(camera).dominator[centre] == static_cast<int32_t>(cloud.size()) - 1);
   for (const TrackingMethod method : {TrackingMethod::GaussNewton, TrackingMethod::Adam}) {
-    TrackingSettings settings{.method = method, .iterations = 5, .minimum_opacity = 0.9};
+    TrackingSettings settings{.method = method, .minimum_opacity = 0.9, .adam = {.iterations = 5}};
     const auto loss = [&](Stand& stand) { return stand.engine.track(stand.frame, camera, settings).loss; };
     CHECK(loss(with) == loss(without));
     settings.uncertainty_above = 0.04;

@@ -22,7 +22,7 @@ int main() {
     // Few steps, so that this example takes a moment only; the defaults suit real sequences.
     SlamSettings settings;
     settings.first_iterations = 10;
-    settings.first_tracking_iterations = 20;
+    settings.tracking.adam.first_iterations = 20;
 
     Slam slam(settings, stream.intrinsics(), engine);
     while (const auto frame = stream.next()) {

@@ -101,9 +101,9 @@ std::vector<std::string> short_run(const std::filesystem::path& out, int frames)
           "--set",
           "mapping_iterations=3",
           "--set",
-          "first_tracking_iterations=6",
+          "adam.first_iterations=6",
           "--set",
-          "tracking.iterations=3",
+          "adam.iterations=3",
           "--set",
           "keyframes.interval=2"};
 }

@@ -43,7 +43,7 @@ TEST_CASE("basin finds that tracking comes back from near, and says how far it e
   CHECK(adam_far["median_translation_m"].get<double>() == doctest::Approx(0.1).epsilon(0.2));
 
   // Other directions, fewer frames, other settings.
-  CHECK(contains(measure({"--frames", "1", "--seed", "2", "--set", "tracking.renders=2"}), "1 frames"));
+  CHECK(contains(measure({"--frames", "1", "--seed", "2", "--set", "gauss_newton.renders=2"}), "1 frames"));
   const nlohmann::json other = read_json(folder / "basin.json");
   CHECK(other["seed"] == 2);
   CHECK(other["starts"][8]["median_translation_m"] != json["starts"][8]["median_translation_m"]);

@@ -58,9 +58,10 @@ TEST_CASE("wrong paths, folders and values are named") {
     more.insert(more.begin(), {"run", "--dataset", "synthetic", "--out", out});
     return refusal(more);
   };
-  CHECK(contains(synthetic({"--set", "trackin.iterations=3"}),
-                 "unknown key trackin.iterations; did you mean "
-                 "tracking.iterations?"));
+  CHECK(contains(synthetic({"--set", "trackin.method=adam"}),
+                 "unknown key trackin.method; did you mean tracking.method?"));
+  CHECK(contains(synthetic({"--set", "tracking.renders=5"}),
+                 "the key tracking.renders has been renamed; use gauss_newton.renders"));
   CHECK(contains(synthetic({"--set", "seed=1", "--set", "depth_max=far"}), "depth_max must be"));
   CHECK(contains(synthetic({"--config", "no.yaml"}), "no.yaml: no such file"));
   const auto config = folder.write("own.yaml", "base: synthetic.yaml\nmapping:\n  weight: 1\n");

@@ -40,6 +40,23 @@ TEST_CASE("every built-in configuration can be read and names only what differs 
   }
 }
 
+TEST_CASE("keys that apply to one method of tracking lead from their old names to its section") {
+  SlamSettings settings;
+  ConfigSchema schema;
+  settings.bind(schema);
+  for (const auto& [old, key] : {std::pair{"first_tracking_iterations", "adam.first_iterations"},
+                                 {"tracking.iterations", "adam.iterations"},
+                                 {"tracking.stop_below", "adam.stop_below"},
+                                 {"tracking.renders", "gauss_newton.renders"},
+                                 {"tracking.reference_weight", "gauss_newton.reference_weight"}}) {
+    CAPTURE(old);
+    const std::string assignment = std::string(old) + "=1";
+    CHECK(test::contains(test::input_error([&] { schema.set(assignment); }),
+                         std::string("has been renamed; use ") + key));
+    CHECK_NOTHROW(schema.set(std::string(key) + "=1"));
+  }
+}
+
 TEST_CASE("a run takes the configuration of its format, then the user's values") {
   const auto effective = [](RunOptions options, const std::string& format) {
     SlamSettings settings;
@@ -47,12 +64,12 @@ TEST_CASE("a run takes the configuration of its format, then the user's values")
     return settings;
   };
   CHECK(effective({}, "replica").keyframes.interval == 10);
-  CHECK(effective({}, "replica").tracking.iterations == 15);
-  CHECK(effective({}, "tum").tracking.iterations == 35);
-  CHECK(effective({}, "unheard of").tracking.iterations == 35);
+  CHECK(effective({}, "replica").tracking.adam.iterations == 15);
+  CHECK(effective({}, "tum").tracking.adam.iterations == 35);
+  CHECK(effective({}, "unheard of").tracking.adam.iterations == 35);
   CHECK(effective({.config = "replica.yaml"}, "tum").keyframes.interval == 10);
-  const SlamSettings own = effective({.assignments = {"tracking.iterations=7", "seed=5"}}, "replica");
-  CHECK(own.tracking.iterations == 7);
+  const SlamSettings own = effective({.assignments = {"adam.iterations=7", "seed=5"}}, "replica");
+  CHECK(own.tracking.adam.iterations == 7);
   CHECK(own.seed == 5);
   CHECK(own.keyframes.interval == 10);
 }

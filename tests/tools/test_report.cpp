@@ -54,7 +54,7 @@ void write_run(const TemporaryFolder& folder, const std::string& name, int frame
     trajectory.push_back(pose);
   }
   folder.write(name + "/metrics.json", metrics.dump());
-  folder.write(name + "/config.yaml", "seed: 1\ntracking:\n  iterations: " + std::to_string(frames) + "\n");
+  folder.write(name + "/config.yaml", "seed: 1\nadam:\n  iterations: " + std::to_string(frames) + "\n");
   write_trajectory(folder / (name + "/trajectory.txt"), trajectory);
   write_trajectory(folder / (name + "/keyframes.txt"), {trajectory[0]});
 }
@@ -100,7 +100,7 @@ TEST_CASE("several runs stand side by side, with the settings in which they diff
   write_run(folder, "second", 60);
   const std::string html = make_report({folder / "first", folder / "second"}, folder);
   check_self_contained(html);
-  CHECK(contains(html, "<tr><th>tracking.iterations</th><td>40</td><td>60</td></tr>"));
+  CHECK(contains(html, "<tr><th>adam.iterations</th><td>40</td><td>60</td></tr>"));
   CHECK_FALSE(contains(html, "<tr><th>seed</th>"));
   CHECK(contains(html, "var(--run1)"));
 }

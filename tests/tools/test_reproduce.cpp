@@ -45,8 +45,8 @@ void write_wall(const TemporaryFolder& folder, const std::string& name) {
 Outcome reproduce(const TemporaryFolder& folder, const std::string& arguments) {
   const char* device = std::getenv("SUREFIELD_DEVICE");
   const std::string own = (device ? std::string(" --device '") + device + "'" : "") +
-                          " -- --quiet --set first_iterations=2 --set first_tracking_iterations=2"
-                          " --set tracking.iterations=2 --set mapping_iterations=1";
+                          " -- --quiet --set first_iterations=2 --set adam.first_iterations=2"
+                          " --set adam.iterations=2 --set mapping_iterations=1";
   const std::string command = "SUREFIELD='" SUREFIELD_PROGRAM "' bash '" SUREFIELD_SOURCE_DIR
                               "/tools/reproduce' " +
                               arguments + (arguments.starts_with("--help") ? "" : own) + " >'" +

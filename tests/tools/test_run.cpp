@@ -65,7 +65,7 @@ TEST_CASE("a run leaves its results, and metrics of the documented schema") {
   ConfigSchema schema;
   settings.bind(schema);
   schema.load_file(folder / "out/config.yaml");
-  CHECK(settings.tracking.iterations == 3);
+  CHECK(settings.tracking.adam.iterations == 3);
   CHECK(settings.depth_max == 10);
 
   const nlohmann::json json = read_json(folder / "out/metrics.json");

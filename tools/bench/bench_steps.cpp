@@ -112,7 +112,7 @@ void SceneSteps::map() {
 }
 
 void SceneSteps::track(TrackingMethod method) {
-  const TrackingSettings settings{.method = method, .iterations = kBatch, .stop_below = 0};
+  const TrackingSettings settings{.method = method, .adam = {.iterations = kBatch, .stop_below = 0}};
   if (method == TrackingMethod::Adam)
     adam_.track(rasteriser_, loss_, map_, frame_, start_, settings);
   else

@@ -23,7 +23,7 @@ constexpr const char* kBasinExamples =
     "Examples:\n"
     "  surefield basin --run out/desk\n"
     "  surefield basin --run out/desk --frames 30 --json basin.json\n"
-    "  surefield basin --run out/desk --set tracking.iterations=100 --set tracking.renders=4\n";
+    "  surefield basin --run out/desk --set adam.iterations=100 --set gauss_newton.renders=4\n";
 
 }  // namespace
 
@@ -39,7 +39,7 @@ void add_basin(CLI::App& program, Action& action) {
       ->capture_default_str();
   basin->add_option("--seed", options->seed, "Varies the directions of motion and the axes of rotation")
       ->capture_default_str();
-  basin->add_option("--set", options->assignments, "Sets one key, as in --set tracking.renders=5")
+  basin->add_option("--set", options->assignments, "Sets one key, as in --set gauss_newton.renders=5")
       ->type_name("KEY=VALUE")
       ->allow_extra_args(false)
       ->take_all();

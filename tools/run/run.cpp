@@ -22,7 +22,7 @@ constexpr const char* kRunExamples =
     "Examples:\n"
     "  surefield run --dataset synthetic --out out/demo\n"
     "  surefield run --dataset rgbd_dataset_freiburg1_desk --out out/desk --frames 100 --scale 0.5\n"
-    "  surefield run --dataset Replica/room0 --out out/room0 --set tracking.renders=5 --set seed=2\n"
+    "  surefield run --dataset Replica/room0 --out out/room0 --set gauss_newton.renders=5 --set seed=2\n"
     "  surefield run --dataset synthetic --out out/demo --film out/demo.mp4\n"
     "  surefield run --dataset synthetic --out out/demo --viewer\n";
 
@@ -62,7 +62,7 @@ void add_run(CLI::App& program, Action& action) {
       ->capture_default_str();
   run->add_option("--config", options->config,
                   "YAML file, or the name of a built-in one; default: the built-in one of the format");
-  run->add_option("--set", options->assignments, "Sets one key, as in --set tracking.renders=5")
+  run->add_option("--set", options->assignments, "Sets one key, as in --set gauss_newton.renders=5")
       ->type_name("KEY=VALUE")
       ->allow_extra_args(false)
       ->take_all();

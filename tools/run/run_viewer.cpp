@@ -23,8 +23,8 @@ constexpr std::chrono::milliseconds kPatience{100};  // between looks whether th
 
 /// The settings that a user may change while a run goes on.
 constexpr const char* kLiveSettings[] = {
-    "mapping_iterations", "keyframes.interval",      "keyframes.valid_below",     "tracking.renders",
-    "tracking.balance",   "tracking.outlier_factor", "mapping.uncertainty_above", "spawn.opacity_below"};
+    "mapping_iterations",   "keyframes.interval",      "keyframes.valid_below",     "gauss_newton.renders",
+    "gauss_newton.balance", "tracking.outlier_factor", "mapping.uncertainty_above", "spawn.opacity_below"};
 
 /// Hands a run over to a window, and what the user wants over to the run.
 class ViewerObserver : public RunObserver {
