@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <numeric>
 #include <set>
+#include <sstream>
 #include <stdexcept>
 #include <string_view>
 
@@ -39,6 +40,24 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
   return row.back();
 }
 
+std::vector<std::string> split_lines(const std::string& text) {
+  std::istringstream stream(text);
+  std::vector<std::string> lines;
+  for (std::string line; std::getline(stream, line);) lines.push_back(line);
+  return lines;
+}
+
+/// What the comment above a line, counted from 1, says before its end, which must be `permitted`; empty where
+/// there is no such comment.
+std::string help_above(const std::vector<std::string>& lines, int line, const std::string& permitted) {
+  if (line < 2) return {};
+  std::string comment = lines.at(static_cast<std::size_t>(line) - 2);
+  comment.erase(0, comment.find_first_not_of(' '));
+  if (!comment.starts_with("# ")) return {};
+  const std::string help = comment.substr(2);
+  return help.ends_with(permitted) ? help.substr(0, help.size() - permitted.size()) : "";
+}
+
 }  // namespace
 
 void ConfigSchema::add_entry(Entry entry) {
@@ -59,7 +78,23 @@ const ConfigSchema::Entry* ConfigSchema::find(const std::string& key) const {
 NumberSetting ConfigSchema::number(const std::string& key) const {
   const Entry* entry = find(key);
   if (!entry || !entry->number) throw std::logic_error("there is no number " + key);
-  return entry->number();
+  NumberSetting setting = entry->number();
+  setting.help = entry->help;
+  return setting;
+}
+
+void ConfigSchema::document(const std::string& text) {
+  const std::vector<std::string> lines = split_lines(text);
+  const std::string name = "documentation";
+  const std::vector<ConfigValue> values = read_built_in_config(name, {{name, text}});
+  for (Entry& entry : entries_) {
+    const auto value = std::find_if(values.begin(), values.end(),
+                                    [&](const ConfigValue& candidate) { return candidate.key == entry.key; });
+    entry.help = value == values.end() ? "" : help_above(lines, value->line, entry.permitted);
+    if (entry.help.empty())
+      throw std::logic_error("the key " + entry.key + " must stand below a comment that ends with \"" +
+                             entry.permitted + "\"");
+  }
 }
 
 void ConfigSchema::renamed(const std::string& old, const std::string& key) {
@@ -138,7 +173,8 @@ std::string ConfigSchema::dump_section(const std::string& prefix, std::size_t de
         entry.key.substr(prefix.size(), entry.key.find('.', prefix.size()) - prefix.size());
     if (!done.insert(name).second) continue;
     if (prefix + name == entry.key) {
-      text += indent + "# " + entry.help + "\n" + indent + name + ": " + entry.print() + "\n";
+      if (!entry.help.empty()) text += indent + "# " + entry.help + entry.permitted + "\n";
+      text += indent + name + ": " + entry.print() + "\n";
     } else {
       text += indent + name + ":\n" + dump_section(prefix + name + ".", depth + 1);
     }

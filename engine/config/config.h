@@ -44,32 +44,37 @@ struct NumberSetting {
 ///
 ///   TrackingSettings tracking;
 ///   ConfigSchema schema;
-///   schema.add("adam.iterations", &tracking.adam.iterations, Range{1, 10000}, "steps per frame");
+///   schema.add("adam.iterations", &tracking.adam.iterations, Range{1, 10000});
 ///   schema.add("adam.pose_gradient", &tracking.adam.pose_gradient,
 ///              Choices<PoseGradientKind>{{"full", PoseGradientKind::Full}, {"light",
-///              PoseGradientKind::Light}}, "terms used");
+///              PoseGradientKind::Light}});
 ///   schema.load_file("configs/tum.yaml");
 ///   schema.set("adam.iterations=40");
 ///
-/// The fields must outlive the schema and keep their addresses. `help` is one line: meaning and unit.
+/// The fields must outlive the schema and keep their addresses.
 class ConfigSchema {
  public:
-  void add(const std::string& key, int* value, Range range, const std::string& help);
-  void add(const std::string& key, float* value, Range range, const std::string& help);
-  void add(const std::string& key, double* value, Range range, const std::string& help);
-  void add(const std::string& key, bool* value, const std::string& help);
-  void add(const std::string& key, std::string* value, const std::string& help);
+  void add(const std::string& key, int* value, Range range);
+  void add(const std::string& key, float* value, Range range);
+  void add(const std::string& key, double* value, Range range);
+  void add(const std::string& key, bool* value);
+  void add(const std::string& key, std::string* value);
 
   /// A list of exactly as many numbers as `value` holds now, each within `range`.
-  void add(const std::string& key, std::vector<double>* value, Range range, const std::string& help);
+  void add(const std::string& key, std::vector<double>* value, Range range);
 
   /// A string out of a list of names.
-  void add(const std::string& key, std::string* value, const std::vector<std::string>& names,
-           const std::string& help);
+  void add(const std::string& key, std::string* value, const std::vector<std::string>& names);
 
   /// An enumeration, given by name. The field must hold one of the listed values.
   template <typename T>
-  void add(const std::string& key, T* value, const Choices<T>& choices, const std::string& help);
+  void add(const std::string& key, T* value, const Choices<T>& choices);
+
+  /// Takes the help of all keys that have been added from the text of a configuration file: of each key the
+  /// comment in the line above it, which says its meaning and unit, and ends with the permitted values in
+  /// brackets where there are any but true and false. Throws std::logic_error naming the key of which the
+  /// text has no such comment.
+  void document(const std::string& text);
 
   /// Tells whoever gives the key `old` that its name is `key`, which has been added. Throws std::logic_error
   /// where it has not, or where `old` is a key.
@@ -93,7 +98,7 @@ class ConfigSchema {
   NumberSetting number(const std::string& key) const;
 
   /// The effective configuration as YAML that load_file accepts: every key in the order in which it was added
-  /// (grouped by section), each with its help as a comment.
+  /// (grouped by section), each below its help as in document(), where it has been given.
   std::string dump() const;
 
  private:
@@ -102,19 +107,19 @@ class ConfigSchema {
 
   struct Entry {
     std::string key;
-    std::string help;
-    bool is_list = false;  ///< given as a YAML list, also on the command line
+    std::string permitted;  ///< values, in brackets with a space before; empty: the type says which
+    bool is_list = false;   ///< given as a YAML list, also on the command line
     Parser parse;
     std::function<std::string()> print;               ///< the current value as YAML
-    std::function<NumberSetting()> number = nullptr;  ///< where it is one
+    std::function<NumberSetting()> number = nullptr;  ///< where it is one, without its help
+    std::string help = {};
   };
 
   void add_entry(Entry entry);
   template <typename T>
-  void add_number(const std::string& key, T* value, Range range, const std::string& help, const char* kind);
+  void add_number(const std::string& key, T* value, Range range, const char* kind);
   void add_choice(const std::string& key, const std::vector<std::string>& names,
-                  std::function<void(std::size_t)> store, std::function<std::size_t()> load,
-                  const std::string& help);
+                  std::function<void(std::size_t)> store, std::function<std::size_t()> load);
   const Entry* find(const std::string& key) const;
   bool is_section(const std::string& key) const;
   /// Stores the values of a file in their order.
@@ -129,7 +134,7 @@ class ConfigSchema {
 };
 
 template <typename T>
-void ConfigSchema::add(const std::string& key, T* value, const Choices<T>& choices, const std::string& help) {
+void ConfigSchema::add(const std::string& key, T* value, const Choices<T>& choices) {
   std::vector<std::string> names;
   for (const auto& choice : choices) names.push_back(choice.first);
   auto store = [value, choices](std::size_t i) { *value = choices[i].second; };
@@ -138,7 +143,7 @@ void ConfigSchema::add(const std::string& key, T* value, const Choices<T>& choic
     while (i < choices.size() && choices[i].second != *value) ++i;
     return i;
   };
-  add_choice(key, names, store, load, help);
+  add_choice(key, names, store, load);
 }
 
 }  // namespace surefield

@@ -55,54 +55,51 @@ std::function<std::string()> number_printer(const T* value) {
   return [value] { return fmt::format("{}", *value); };
 }
 
-std::string with_range(const std::string& help, Range range) {
-  return fmt::format("{} [{} to {}]", help, range.min, range.max);
+std::string permitted(Range range) {
+  return fmt::format(" [{} to {}]", range.min, range.max);
 }
 
 }  // namespace
 
 template <typename T>
-void ConfigSchema::add_number(const std::string& key, T* value, Range range, const std::string& help,
-                              const char* kind) {
+void ConfigSchema::add_number(const std::string& key, T* value, Range range, const char* kind) {
   const auto number = [=] {
-    return NumberSetting{key, help, range, std::is_integral_v<T>, static_cast<double>(*value)};
+    return NumberSetting{key, {}, range, std::is_integral_v<T>, static_cast<double>(*value)};
   };
-  add_entry({key, with_range(help, range), false, number_parser(value, range, kind), number_printer(value),
-             number});
+  add_entry({key, permitted(range), false, number_parser(value, range, kind), number_printer(value), number});
 }
 
-void ConfigSchema::add(const std::string& key, int* value, Range range, const std::string& help) {
-  add_number(key, value, range, help, "a whole number");
+void ConfigSchema::add(const std::string& key, int* value, Range range) {
+  add_number(key, value, range, "a whole number");
 }
 
-void ConfigSchema::add(const std::string& key, float* value, Range range, const std::string& help) {
-  add_number(key, value, range, help, "a number");
+void ConfigSchema::add(const std::string& key, float* value, Range range) {
+  add_number(key, value, range, "a number");
 }
 
-void ConfigSchema::add(const std::string& key, double* value, Range range, const std::string& help) {
-  add_number(key, value, range, help, "a number");
+void ConfigSchema::add(const std::string& key, double* value, Range range) {
+  add_number(key, value, range, "a number");
 }
 
-void ConfigSchema::add(const std::string& key, bool* value, const std::string& help) {
+void ConfigSchema::add(const std::string& key, bool* value) {
   const auto parse = [value](const YAML::Node& node) -> std::string {
     if (!node.IsScalar() || (node.Scalar() != "true" && node.Scalar() != "false")) return "true or false";
     *value = node.Scalar() == "true";
     return {};
   };
-  add_entry({key, help, false, parse, [value] { return std::string(*value ? "true" : "false"); }});
+  add_entry({key, "", false, parse, [value] { return std::string(*value ? "true" : "false"); }});
 }
 
-void ConfigSchema::add(const std::string& key, std::string* value, const std::string& help) {
+void ConfigSchema::add(const std::string& key, std::string* value) {
   const auto parse = [value](const YAML::Node& node) -> std::string {
     if (!node.IsScalar()) return "text";
     *value = node.Scalar();
     return {};
   };
-  add_entry({key, help, false, parse, [value] { return print_text(*value); }});
+  add_entry({key, "", false, parse, [value] { return print_text(*value); }});
 }
 
-void ConfigSchema::add(const std::string& key, std::vector<double>* value, Range range,
-                       const std::string& help) {
+void ConfigSchema::add(const std::string& key, std::vector<double>* value, Range range) {
   const std::size_t size = value->size();
   const auto parse = [=](const YAML::Node& node) -> std::string {
     const std::string expected = fmt::format("a list of {} numbers {}", size, describe(range));
@@ -116,22 +113,20 @@ void ConfigSchema::add(const std::string& key, std::vector<double>* value, Range
     *value = numbers;
     return {};
   };
-  add_entry({key, with_range(help, range), true, parse,
-             [value] { return fmt::format("[{}]", fmt::join(*value, ", ")); }});
+  add_entry(
+      {key, permitted(range), true, parse, [value] { return fmt::format("[{}]", fmt::join(*value, ", ")); }});
 }
 
-void ConfigSchema::add(const std::string& key, std::string* value, const std::vector<std::string>& names,
-                       const std::string& help) {
+void ConfigSchema::add(const std::string& key, std::string* value, const std::vector<std::string>& names) {
   const auto store = [value, names](std::size_t i) { *value = names[i]; };
   const auto load = [value, names] {
     return static_cast<std::size_t>(std::find(names.begin(), names.end(), *value) - names.begin());
   };
-  add_choice(key, names, store, load, help);
+  add_choice(key, names, store, load);
 }
 
 void ConfigSchema::add_choice(const std::string& key, const std::vector<std::string>& names,
-                              std::function<void(std::size_t)> store, std::function<std::size_t()> load,
-                              const std::string& help) {
+                              std::function<void(std::size_t)> store, std::function<std::size_t()> load) {
   if (load() >= names.size()) throw std::logic_error("the default of " + key + " is not among its choices");
   const auto parse = [=](const YAML::Node& node) -> std::string {
     const auto name = node.IsScalar() ? std::find(names.begin(), names.end(), node.Scalar()) : names.end();
@@ -140,7 +135,7 @@ void ConfigSchema::add_choice(const std::string& key, const std::vector<std::str
     return {};
   };
   const auto print = [=] { return print_text(names.at(load())); };
-  add_entry({key, fmt::format("{} [{}]", help, join(names)), false, parse, print});
+  add_entry({key, fmt::format(" [{}]", join(names)), false, parse, print});
 }
 
 }  // namespace surefield

@@ -25,14 +25,14 @@ RecordedCamera read_camera_file(const std::filesystem::path& file) {
   k.fx = k.fy = k.cx = k.cy = camera.depth_unit = kMissing;
   camera.distortion.assign(5, 0.0);
   ConfigSchema schema;
-  schema.add("width", &k.width, Range{1, kLargestSide}, "pixels");
-  schema.add("height", &k.height, Range{1, kLargestSide}, "pixels");
-  schema.add("fx", &k.fx, Range{1e-3, kLargestPixel}, "focal length, pixels");
-  schema.add("fy", &k.fy, Range{1e-3, kLargestPixel}, "focal length, pixels");
-  schema.add("cx", &k.cx, Range{-kLargestPixel, kLargestPixel}, "principal point, pixels");
-  schema.add("cy", &k.cy, Range{-kLargestPixel, kLargestPixel}, "principal point, pixels");
-  schema.add("distortion", &camera.distortion, Range{-1e3, 1e3}, "k1 k2 p1 p2 k3 of OpenCV");
-  schema.add("depth_unit", &camera.depth_unit, Range{kSmallestUnit, 1e3}, "metres for one step of depth");
+  schema.add("width", &k.width, Range{1, kLargestSide});
+  schema.add("height", &k.height, Range{1, kLargestSide});
+  schema.add("fx", &k.fx, Range{1e-3, kLargestPixel});
+  schema.add("fy", &k.fy, Range{1e-3, kLargestPixel});
+  schema.add("cx", &k.cx, Range{-kLargestPixel, kLargestPixel});
+  schema.add("cy", &k.cy, Range{-kLargestPixel, kLargestPixel});
+  schema.add("distortion", &camera.distortion, Range{-1e3, 1e3});
+  schema.add("depth_unit", &camera.depth_unit, Range{kSmallestUnit, 1e3});
   schema.load_file(file);
   const auto require = [&](const char* key, double value) {
     if (std::isnan(value)) throw InputError(file, std::string(key) + " is missing");

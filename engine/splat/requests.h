@@ -38,33 +38,35 @@ struct FrameView {
 /// How tracking minimises its loss.
 enum class TrackingMethod { GaussNewton, Adam };
 
-/// What second-order tracking does (docs/method.md, "Second-order tracking").
+/// What second-order tracking does (docs/method.md, "Second-order tracking"): `gauss_newton` in
+/// configs/base.yaml, which says what each key means.
 struct GaussNewtonSettings {
-  int renders = 1;              ///< times that the map is rendered and aligned, at most
-  double balance = 1.5;         ///< weight of the geometric residuals beside the photometric ones
-  int references = 4;           ///< keyframes whose images a frame is aligned to, at most
-  double reference_weight = 1;  ///< weight of each of them beside the render
+  int renders = 1;
+  double balance = 1.5;
+  int references = 4;
+  double reference_weight = 1;
 };
 
-/// What tracking by Adam does (paper eq. 20).
+/// What tracking by Adam does (paper eq. 20): `adam` in configs/base.yaml. The engine takes `iterations`
+/// steps; Slam makes them `first_iterations` where it is time to.
 struct AdamSettings {
-  int iterations = 35;                ///< steps, at most
-  int first_iterations = 100;         ///< those of the first frame that Slam tracks, where they are more
-  double rate_rotation = 0.0015;      ///< step, radians
-  double rate_translation = 0.00215;  ///< step, metres
+  int iterations = 35;
+  int first_iterations = 100;
+  double rate_rotation = 0.0015;
+  double rate_translation = 0.00215;
   PoseGradientKind pose_gradient = PoseGradientKind::Full;
-  double stop_below = 2e-5;  ///< stop when steps of all pose numbers have become smaller (radians, metres)
+  double stop_below = 2e-5;
 };
 
-/// How a pose is tracked: the loss (paper eq. 19 and 20), by which either method judges poses, and what each
-/// method does to lower it.
+/// How a pose is tracked: the loss (paper eq. 19 and 20), by which either method judges poses (`tracking` in
+/// configs/base.yaml), and what each method does to lower it.
 struct TrackingSettings {
   TrackingMethod method = TrackingMethod::GaussNewton;
-  double weight_colour = 1.0;        ///< lambda_1
-  double weight_depth = 0.6;         ///< lambda_2
-  double minimum_opacity = 0.5;      ///< pixels take part where O is above
-  double outlier_factor = 10;        ///< and where the residual is below this many times the median
-  double uncertainty_above = 0.025;  ///< tau, m^2: more uncertain Gaussians take no part; 0: all do
+  double weight_colour = 1.0;
+  double weight_depth = 0.6;
+  double minimum_opacity = 0.5;
+  double outlier_factor = 10;
+  double uncertainty_above = 0.025;
   DepthKind depth = DepthKind::Normalised;
   GaussNewtonSettings gauss_newton;
   AdamSettings adam;
@@ -86,25 +88,25 @@ struct TrackingResult {
   double milliseconds = 0;
 };
 
-/// How the map is optimised (paper eq. 18 and 21). Rates are Adam's steps.
+/// How the map is optimised (paper eq. 18 and 21): `mapping` in configs/base.yaml.
 struct MappingSettings {
   double weight_colour = 1.0;
   double weight_ssim = 0.1;
   double weight_depth = 0.8;
   double weight_align = 0.1;
   double weight_isotropy = 0.1;
-  double isotropy_epsilon = 5;  ///< L_iso begins where the largest scale is so many times the smallest
+  double isotropy_epsilon = 5;
   double weight_variance = 0.5;
   DepthKind depth = DepthKind::Normalised;
-  double uncertainty_above = 0.025;  ///< tau, m^2: Gaussians above lose their opacity; 0: none is judged
-  double uncertain_opacity = 0.01;   ///< what is left of it
-  double rate_mean = 3e-4;           ///< times extent, metres
-  double rate_log_scale = 1e-4;      ///< times extent
+  double uncertainty_above = 0.025;
+  double uncertain_opacity = 0.01;
+  double rate_mean = 3e-4;
+  double rate_log_scale = 1e-4;
   double rate_rotation = 1e-3;
   double rate_opacity = 5e-2;
-  double rate_colour = 2.5e-3;       ///< SH of degree 0; the higher ones move at a twentieth of it
-  double rate_pose_rotation = 0;     ///< radians
-  double rate_pose_translation = 0;  ///< metres
+  double rate_colour = 2.5e-3;
+  double rate_pose_rotation = 0;
+  double rate_pose_translation = 0;
   PoseGradientKind pose_gradient = PoseGradientKind::Full;
 };
 
@@ -129,14 +131,15 @@ struct JudgeResult {
   double milliseconds = 0;
 };
 
-/// When Gaussians are split, cloned and removed (3D Gaussian splatting's adaptive control).
+/// When Gaussians are split, cloned and removed (3D Gaussian splatting's adaptive control): `densify` in
+/// configs/base.yaml, beside what the caller knows of the scene.
 struct DensifySettings {
-  double gradient_threshold = 2e-3;  ///< mean screen gradient, in units of half the image
-  double split_scale = 0.01;         ///< larger ones are split, smaller ones cloned; times extent, metres
-  double minimum_opacity = 0.005;    ///< fainter ones are removed
-  double maximum_scale = 0.1;        ///< larger ones are removed; times extent, metres
-  double extent = 1;                 ///< size of the scene, metres
-  uint64_t seed = 0;                 ///< where split children fall
+  double gradient_threshold = 2e-3;
+  double split_scale = 0.01;
+  double minimum_opacity = 0.005;
+  double maximum_scale = 0.1;
+  double extent = 1;  ///< size of the scene, metres
+  uint64_t seed = 0;  ///< where split children fall
 };
 
 /// How many Gaussians a densification added and removed.

@@ -23,23 +23,6 @@ struct Settings {
   std::vector<double> background = {0, 0, 0};
 };
 
-struct Bound {
-  Settings settings;
-  ConfigSchema schema;
-
-  Bound() {
-    schema.add("tracking.iterations", &settings.iterations, Range{1, 10000}, "steps per frame");
-    schema.add("tracking.rate", &settings.rate, Range{0, 1}, "learning rate, radians");
-    schema.add("output", &settings.output, "folder of the results");
-    schema.add("tracking.mask.opacity", &settings.opacity, Range{0, 1}, "least opacity");
-    schema.add("tracking.pose_gradient", &settings.gradient,
-               Choices<PoseGradient>{{"full", PoseGradient::full}, {"light", PoseGradient::light}}, "terms");
-    schema.add("mapping.exposure", &settings.exposure, "estimate exposure");
-    schema.add("dataset.format", &settings.format, {"auto", "tum"}, "layout");
-    schema.add("mapping.background", &settings.background, Range{0, 1}, "colour, RGB");
-  }
-};
-
 constexpr const char* kDefaults =
     "tracking:\n"
     "  # steps per frame [1 to 10000]\n"
@@ -61,6 +44,24 @@ constexpr const char* kDefaults =
     "dataset:\n"
     "  # layout [auto, tum]\n"
     "  format: \"auto\"\n";
+
+struct Bound {
+  Settings settings;
+  ConfigSchema schema;
+
+  Bound() {
+    schema.add("tracking.iterations", &settings.iterations, Range{1, 10000});
+    schema.add("tracking.rate", &settings.rate, Range{0, 1});
+    schema.add("output", &settings.output);
+    schema.add("tracking.mask.opacity", &settings.opacity, Range{0, 1});
+    schema.add("tracking.pose_gradient", &settings.gradient,
+               Choices<PoseGradient>{{"full", PoseGradient::full}, {"light", PoseGradient::light}});
+    schema.add("mapping.exposure", &settings.exposure);
+    schema.add("dataset.format", &settings.format, {"auto", "tum"});
+    schema.add("mapping.background", &settings.background, Range{0, 1});
+    schema.document(kDefaults);
+  }
+};
 
 std::string load_error(const std::string& text) {
   const TemporaryFolder folder;
@@ -240,9 +241,12 @@ TEST_CASE("a number tells its range, its help and its value") {
   double rate = 0.5;
   bool flag = true;
   ConfigSchema schema;
-  schema.add("steps", &steps, Range{1, 9}, "how many");
-  schema.add("part.rate", &rate, Range{0, 2}, "how fast");
-  schema.add("flag", &flag, "whether");
+  schema.add("steps", &steps, Range{1, 9});
+  schema.add("part.rate", &rate, Range{0, 2});
+  schema.add("flag", &flag);
+  CHECK(schema.number("part.rate").help == "");
+  schema.document(
+      "# how many [1 to 9]\nsteps: 3\npart:\n  # how fast [0 to 2]\n  rate: 0\n# whether\nflag: true\n");
   schema.set("part.rate=1.5");
   const NumberSetting number = schema.number("part.rate");
   CHECK(number.value == 1.5);
@@ -252,6 +256,31 @@ TEST_CASE("a number tells its range, its help and its value") {
   CHECK(schema.number("steps").whole);
   CHECK_THROWS_AS(schema.number("flag"), std::logic_error);
   CHECK_THROWS_AS(schema.number("none"), std::logic_error);
+}
+
+TEST_CASE("every key must be documented, with the values that it permits") {
+  int steps = 3;
+  bool flag = true;
+  ConfigSchema schema;
+  schema.add("part.steps", &steps, Range{1, 9});
+  schema.add("flag", &flag);
+  const std::string good = "part:\n  # how many [1 to 9]\n  steps: 1\n# whether\nflag: true\n";
+  CHECK_NOTHROW(schema.document(good));
+  CHECK(schema.number("part.steps").help == "how many");
+  CHECK(steps == 3);  // documentation sets nothing
+  for (const auto& [part, changed] : {std::pair{"  # how many [1 to 9]\n", ""},
+                                      {"[1 to 9]", "[1 to 8]"},
+                                      {" [1 to 9]", ""},
+                                      {"how many", ""},
+                                      {"how many ", ""},
+                                      {"  steps: 1\n", ""},
+                                      {"# whether\n", "\n"},
+                                      {"flag: true\n", ""}}) {
+    std::string text = good;
+    text.replace(text.find(part), std::string(part).size(), changed);
+    CAPTURE(text);
+    CHECK_THROWS_AS(schema.document(text), std::logic_error);
+  }
 }
 
 TEST_CASE("a key that has been renamed leads to its name, in a file and on a command line") {
@@ -272,9 +301,9 @@ TEST_CASE("mistakes of the programmer are caught when a key is added") {
   ConfigSchema schema;
   int value = 1;
   std::string name = "other";
-  schema.add("a.b", &value, Range{0, 1}, "x");
-  CHECK_THROWS_AS(schema.add("a.b", &value, Range{0, 1}, "x"), std::logic_error);
-  CHECK_THROWS_AS(schema.add("a", &value, Range{0, 1}, "x"), std::logic_error);
-  CHECK_THROWS_AS(schema.add("a.b.c", &value, Range{0, 1}, "x"), std::logic_error);
-  CHECK_THROWS_AS(schema.add("name", &name, {"one", "two"}, "x"), std::logic_error);
+  schema.add("a.b", &value, Range{0, 1});
+  CHECK_THROWS_AS(schema.add("a.b", &value, Range{0, 1}), std::logic_error);
+  CHECK_THROWS_AS(schema.add("a", &value, Range{0, 1}), std::logic_error);
+  CHECK_THROWS_AS(schema.add("a.b.c", &value, Range{0, 1}), std::logic_error);
+  CHECK_THROWS_AS(schema.add("name", &name, {"one", "two"}), std::logic_error);
 }

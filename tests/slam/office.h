@@ -24,7 +24,7 @@ inline SlamSettings quick_settings() {
   settings.depth_max = 10;
   settings.first_iterations = 40;
   settings.mapping_iterations = 10;
-  settings.first_tracking_iterations = 25;
+  settings.tracking.adam.first_iterations = 25;
   settings.keyframes.interval = 3;
   return settings;
 }

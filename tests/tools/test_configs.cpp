@@ -21,7 +21,7 @@ TEST_CASE("base.yaml documents exactly the keys of the program with their defaul
   std::string written_line, expected_line;
   while (std::getline(expected, expected_line)) {
     std::getline(written, written_line);
-    INFO("copy the config.yaml of `surefield run --config base.yaml` below the heading of configs/base.yaml");
+    INFO("configs/base.yaml must hold the keys in the order of SlamSettings::bind(), with their defaults");
     REQUIRE(written_line == expected_line);
   }
   CHECK_FALSE(std::getline(written, written_line));
