@@ -2,8 +2,8 @@
 #include <surefield/formats/map_file.h>
 #include <surefield/io/trajectory_file.h>
 #include <surefield/slam/slam.h>
-#include <surefield/sources/dataset.h>
 #include <surefield/sources/frame_stream.h>
+#include <surefield/sources/open_dataset.h>
 #include <surefield/types/error.h>
 
 #include <cstdio>
@@ -14,7 +14,7 @@ int main(int count, char** arguments) try {
     return 2;
   }
   const auto dataset = surefield::open_dataset(arguments[1]);
-  surefield::FrameStream frames(*dataset, {.frames = 30, .scale = 0.25});
+  surefield::FrameStream frames(*dataset.recording, {.frames = 30, .scale = 0.25});
   surefield::Slam slam(surefield::SlamSettings{}, frames.intrinsics());
   while (const auto frame = frames.next()) slam.feed(*frame);
   slam.finish();

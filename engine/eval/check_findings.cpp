@@ -77,16 +77,16 @@ std::string registration_text(const DatasetCheck& check) {
 
 }  // namespace
 
-std::vector<std::string> check_findings(const DatasetCheck& check, const Dataset& dataset) {
+std::vector<std::string> check_findings(const DatasetCheck& check, const Recording& recording) {
   std::vector<std::string> findings;
   if (const auto* scale = wrong(check, CheckedValue::DepthScale)) {
-    findings.push_back(depth_scale_text(scale->best, dataset.depth_unit()));
+    findings.push_back(depth_scale_text(scale->best, recording.depth_unit()));
   }
   if (const auto* focal = wrong(check, CheckedValue::FocalLength)) {
-    findings.push_back(focal_text(focal->best, dataset.intrinsics()));
+    findings.push_back(focal_text(focal->best, recording.intrinsics()));
   }
   if (const auto* ratio = wrong(check, CheckedValue::FocalRatio)) {
-    findings.push_back(focal_ratio_text(ratio->best, dataset.intrinsics()));
+    findings.push_back(focal_ratio_text(ratio->best, recording.intrinsics()));
   }
   const std::string registration = registration_text(check);
   if (!registration.empty()) findings.push_back(registration);

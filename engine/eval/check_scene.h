@@ -16,12 +16,13 @@ struct PreparedScene {
 /// `count` numbers from 0 to size - 1, or all of them where there are fewer, evenly spread.
 std::vector<int> spread(int size, int count);
 
-/// Whether the stamps of a dataset are but the numbers of its frames.
-bool stamps_are_indices(const Dataset& dataset);
+/// Whether the stamps of a recording are but the numbers of its frames.
+bool stamps_are_indices(const Recording& recording);
 
 /// Loads frames from all over the dataset, each with a later one that was seen from clearly elsewhere but
-/// shows much of the same; without poses just frames. Frames that cannot be read are left out. Ends early,
-/// with what was loaded, when `stop` returns true.
-PreparedScene prepare_scene(const Dataset& dataset, const std::function<bool()>& stop);
+/// shows much of the same; without `truth` (null), or poses in it, just frames. Frames that cannot be read
+/// are left out. Ends early, with what was loaded, when `stop` returns true.
+PreparedScene prepare_scene(const Recording& recording, const Trajectory* truth,
+                            const std::function<bool()>& stop);
 
 }  // namespace surefield

@@ -141,8 +141,9 @@ class Checker {
 
 }  // namespace
 
-DatasetCheck check_dataset(const Dataset& dataset, const std::function<bool()>& stop) {
-  const PreparedScene prepared = prepare_scene(dataset, stop);
+DatasetCheck check_dataset(const Recording& recording, const Trajectory* truth,
+                           const std::function<bool()>& stop) {
+  const PreparedScene prepared = prepare_scene(recording, truth, stop);
   const Checker checker(prepared);
   DatasetCheck check;
   check.has_poses = !prepared.scene.track.empty();

@@ -41,11 +41,13 @@ struct DatasetCheck {
 
 /// Warps frames into later ones by the true poses, and lays depth edges on colour edges, to tell whether
 /// depth scale, intrinsics, registration and stamps fit: each value is varied alone, the one that explains
-/// most is corrected, and the others are judged again. Loads up to some 50 frames. `stop` is asked now and
-/// then, and ends the check early when it returns true.
-DatasetCheck check_dataset(const Dataset& dataset, const std::function<bool()>& stop = {});
+/// most is corrected, and the others are judged again. Loads up to some 50 frames. `truth` is the true
+/// trajectory, null where there is none. `stop` is asked now and then, and ends the check early when it
+/// returns true.
+DatasetCheck check_dataset(const Recording& recording, const Trajectory* truth,
+                           const std::function<bool()>& stop = {});
 
 /// One line for each thing that was found wrong: what it is and what to change.
-std::vector<std::string> check_findings(const DatasetCheck& check, const Dataset& dataset);
+std::vector<std::string> check_findings(const DatasetCheck& check, const Recording& recording);
 
 }  // namespace surefield

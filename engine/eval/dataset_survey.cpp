@@ -57,27 +57,27 @@ class DepthHistogram {
   uint64_t holes_ = 0;
 };
 
-int count_posed(const Dataset& dataset) {
-  if (!dataset.ground_truth()) return 0;
-  const PoseTrack track(*dataset.ground_truth());
+int count_posed(const Recording& recording, const Trajectory* truth) {
+  if (!truth) return 0;
+  const PoseTrack track(*truth);
   int count = 0;
-  for (int i = 0; i < dataset.size(); ++i) count += track.at(dataset.timestamp(i)) ? 1 : 0;
+  for (int i = 0; i < recording.count(); ++i) count += track.at(recording.timestamp(i)) ? 1 : 0;
   return count;
 }
 
 }  // namespace
 
-StampSurvey survey_stamps(const Dataset& dataset) {
+StampSurvey survey_stamps(const Recording& recording) {
   StampSurvey survey;
-  survey.indices = stamps_are_indices(dataset);
+  survey.indices = stamps_are_indices(recording);
   std::vector<double> steps;
-  for (int i = 1; i < dataset.size(); ++i) {
-    const double step = dataset.timestamp(i) - dataset.timestamp(i - 1);
+  for (int i = 1; i < recording.count(); ++i) {
+    const double step = recording.timestamp(i) - recording.timestamp(i - 1);
     survey.disordered += step > 0 ? 0 : 1;
     if (step > 0) steps.push_back(step);
   }
   if (steps.empty()) return survey;
-  survey.duration = dataset.timestamp(dataset.size() - 1) - dataset.timestamp(0);
+  survey.duration = recording.timestamp(recording.count() - 1) - recording.timestamp(0);
   survey.spacing = median(steps);
   for (double step : steps) {
     if (step <= kGap * survey.spacing) continue;
@@ -88,18 +88,19 @@ StampSurvey survey_stamps(const Dataset& dataset) {
   return survey;
 }
 
-DatasetSurvey survey_dataset(const Dataset& dataset, const std::function<bool(int)>& go_on) {
+DatasetSurvey survey_dataset(const Recording& recording, const Trajectory* truth,
+                             const std::function<bool(int)>& go_on) {
   DatasetSurvey survey;
-  survey.stamps = survey_stamps(dataset);
-  survey.posed = count_posed(dataset);
+  survey.stamps = survey_stamps(recording);
+  survey.posed = count_posed(recording, truth);
   DepthHistogram histogram;
-  FrameStream stream(dataset, {});
+  FrameStream stream(recording, {});
   while (const std::optional<Frame> frame = stream.next()) {
     histogram.add(frame->depth);
     survey.frames = frame->index + 1;
     if (go_on && !go_on(survey.frames)) break;
   }
-  survey.unreadable = stream.skipped();
+  survey.unreadable = stream.problems();
   if (!survey.unreadable.empty()) {
     survey.frames = std::max(survey.frames, survey.unreadable.back().index + 1);
   }

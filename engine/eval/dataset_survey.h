@@ -37,9 +37,11 @@ struct DatasetSurvey {
 };
 
 /// The times alone; reads no image.
-StampSurvey survey_stamps(const Dataset& dataset);
+StampSurvey survey_stamps(const Recording& recording);
 
-/// Reads every frame. `go_on` is told how many are done and ends the survey early by returning false.
-DatasetSurvey survey_dataset(const Dataset& dataset, const std::function<bool(int)>& go_on = {});
+/// Reads every frame. `truth` is the true trajectory, null where there is none. `go_on` is told how many are
+/// done and ends the survey early by returning false.
+DatasetSurvey survey_dataset(const Recording& recording, const Trajectory* truth,
+                             const std::function<bool(int)>& go_on = {});
 
 }  // namespace surefield

@@ -30,53 +30,54 @@ struct Trial {
 /// The trials of one colour image: with the depth image before that of the dataset, with that, with the next.
 using Trials = std::array<Trial, 3>;
 
-bool has_depth_stamps(const Dataset& dataset) {
-  for (int i = 0; i < dataset.size(); ++i)
-    if (dataset.depth_timestamp(i) != dataset.timestamp(i)) return true;
+bool has_depth_stamps(const Recording& recording) {
+  for (int i = 0; i < recording.count(); ++i)
+    if (recording.depth_timestamp(i) != recording.timestamp(i)) return true;
   return false;
 }
 
 /// Median time between frames, seconds.
-double frame_period(const Dataset& dataset) {
+double frame_period(const Recording& recording) {
   std::vector<double> periods;
-  for (int i = 1; i < dataset.size(); ++i) periods.push_back(dataset.timestamp(i) - dataset.timestamp(i - 1));
+  for (int i = 1; i < recording.count(); ++i)
+    periods.push_back(recording.timestamp(i) - recording.timestamp(i - 1));
   return median(periods);
 }
 
-std::optional<Trial> try_frame(const Dataset& dataset, int i, double added) {
-  const LoadedFrame loaded = dataset.load(i);
+std::optional<Trial> try_frame(const Recording& recording, int i, double added) {
+  const LoadedFrame loaded = recording.load(i);
   if (!loaded.frame) return std::nullopt;
-  const double scale = std::min(1.0, kTrialWidth / dataset.intrinsics().width);
-  CheckScene scene{.intrinsics = dataset.intrinsics().scaled(scale)};
+  const double scale = std::min(1.0, kTrialWidth / recording.intrinsics().width);
+  CheckScene scene{.intrinsics = recording.intrinsics().scaled(scale)};
   scene.frames.push_back(prepare_frame(resize_frame(*loaded.frame, scale), loaded.frame->timestamp));
   const auto strength = edge_strengths(scene, {})[0];
   if (!strength) return std::nullopt;
-  return Trial{dataset.depth_timestamp(i) - added - dataset.timestamp(i), *strength};
+  return Trial{recording.depth_timestamp(i) - added - recording.timestamp(i), *strength};
 }
 
 /// The trials of frames all over the sequence, those that could be judged with all three depth images, about
 /// a delay that is known so far.
-std::vector<Trials> run_trials(const Dataset& dataset, double delay, const OpenDelayed& open) {
-  const double period = frame_period(dataset);
+std::vector<Trials> run_trials(const Recording& recording, double delay, const OpenDelayed& open) {
+  const double period = frame_period(recording);
   const std::array<double, 3> added = {delay + period, delay, delay - period};
-  std::array<std::unique_ptr<Dataset>, 3> datasets;
+  std::array<std::unique_ptr<Recording>, 3> recordings;
   std::array<std::map<double, int>, 3> frames;  // by the stamp of the colour image
   for (int k = 0; k < 3; ++k) {
     try {
-      datasets[k] = open(added[k]);
+      recordings[k] = open(added[k]);
     } catch (const InputError&) {
       return {};  // nothing belongs together then
     }
-    for (int i = 0; i < datasets[k]->size(); ++i) frames[k][datasets[k]->timestamp(i)] = i;
+    for (int i = 0; i < recordings[k]->count(); ++i) frames[k][recordings[k]->timestamp(i)] = i;
   }
   std::vector<Trials> all;
-  for (int i : spread(dataset.size(), kDelayFrames)) {
+  for (int i : spread(recording.count(), kDelayFrames)) {
     Trials trials;
     bool complete = true;
     for (int k = 0; k < 3 && complete; ++k) {
-      const auto frame = frames[k].find(dataset.timestamp(i));
+      const auto frame = frames[k].find(recording.timestamp(i));
       complete = frame != frames[k].end();
-      const auto trial = complete ? try_frame(*datasets[k], frame->second, added[k]) : std::nullopt;
+      const auto trial = complete ? try_frame(*recordings[k], frame->second, added[k]) : std::nullopt;
       complete = trial.has_value();
       if (complete) trials[k] = *trial;
     }
@@ -121,16 +122,16 @@ double top_of(const Trials& means) {
 
 }  // namespace
 
-double estimate_depth_delay(const Dataset& dataset, const OpenDelayed& open) {
+double estimate_depth_delay(const Recording& recording, const OpenDelayed& open) {
   const auto fewest = static_cast<std::size_t>(kFewestTrials);
-  if (dataset.size() < kFewestTrials || !has_depth_stamps(dataset)) return 0;
-  const std::vector<Trials> first = run_trials(dataset, 0, open);
+  if (recording.count() < kFewestTrials || !has_depth_stamps(recording)) return 0;
+  const std::vector<Trials> first = run_trials(recording, 0, open);
   if (first.size() < fewest) return 0;
   const Trials means = mean_of(first);
   const int best = means[0].strength > means[2].strength ? 0 : 2;
   if (!is_certain(first, best)) return 0;
   // Once more about the better one, for which it lies between two.
-  const std::vector<Trials> second = run_trials(dataset, -means[best].offset, open);
+  const std::vector<Trials> second = run_trials(recording, -means[best].offset, open);
   return -(second.size() < fewest ? means[best].offset : top_of(mean_of(second)));
 }
 

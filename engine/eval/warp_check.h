@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "engine/sources/dataset.h"
+#include "engine/sources/recording.h"
 
 namespace surefield {
 

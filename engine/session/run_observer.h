@@ -5,16 +5,15 @@
 #include <vector>
 
 #include "engine/slam/slam.h"
-#include "engine/sources/dataset.h"
+#include "engine/sources/frame_source.h"
 
 namespace surefield {
 
 /// What is known of a run when it begins.
 struct RunStart {
-  const Dataset& dataset;
+  const FrameSource& source;       ///< of the frames that are fed; its next() is for the run alone
+  const Trajectory* ground_truth;  ///< null where there is none
   const SlamSettings& settings;
-  Intrinsics intrinsics;  ///< of the frames that are fed
-  int frames = 0;         ///< how many there are to feed
   spdlog::logger& log;
 };
 

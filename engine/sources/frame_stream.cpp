@@ -17,36 +17,64 @@ namespace surefield {
 
 namespace {
 
-int count_selected(const Dataset& dataset, const FrameSelection& selection) {
+void check(const FrameSelection& selection) {
   if (selection.stride < 1) throw InputError("stride must be at least 1");
   if (selection.frames < 0) throw InputError("frames must be 0 (all) or more");
   if (selection.ahead < 1) throw InputError("the number of frames decoded ahead must be at least 1");
   if (!(selection.scale > 0 && selection.scale <= 1)) throw InputError("the image scale must lie in (0, 1]");
-  if (selection.start < 0 || selection.start >= dataset.size()) {
+}
+
+/// How many frames there are to stream; nullopt where nobody knows how many the source has.
+std::optional<int> count_selected(const FrameSource& source, const FrameSelection& selection) {
+  check(selection);
+  const std::optional<int> size = source.size();
+  if (selection.start < 0 || (size && selection.start >= *size)) {
     throw InputError(fmt::format("start is {}, but the frames of {} are 0 to {}", selection.start,
-                                 dataset.name(), dataset.size() - 1));
+                                 source.name(), size ? std::to_string(*size - 1) : "its end"));
   }
-  const int available = (dataset.size() - selection.start - 1) / selection.stride + 1;
+  if (!size) return std::nullopt;
+  const int available = (*size - selection.start - 1) / selection.stride + 1;
   return selection.frames == 0 ? available : std::min(available, selection.frames);
 }
 
-Intrinsics scaled_intrinsics(const Dataset& dataset, double scale) {
-  const Intrinsics intrinsics = dataset.intrinsics().scaled(scale);
+Intrinsics scaled_intrinsics(const FrameSource& source, double scale) {
+  const Intrinsics intrinsics = source.intrinsics().scaled(scale);
   if (intrinsics.width < 1 || intrinsics.height < 1) {
-    throw InputError(fmt::format("an image scale of {} leaves no pixel of {}", scale, dataset.name()));
+    throw InputError(fmt::format("an image scale of {} leaves no pixel of {}", scale, source.name()));
   }
   return intrinsics;
+}
+
+/// What became of one selected frame.
+struct Decoded {
+  int index = 0;
+  LoadedFrame loaded;
+};
+
+/// What `load` gives. A frame that cannot be decoded is one bad frame; lack of memory is not, and passes
+/// through.
+template <typename Load>
+LoadedFrame decode(Load load) {
+  try {
+    return load();
+  } catch (const std::bad_alloc&) {
+    throw;
+  } catch (const std::exception& error) {
+    return {std::nullopt, error.what()};
+  }
 }
 
 }  // namespace
 
 /// The decoding thread and the queue between it and the consumer.
 struct FrameStream::Decoder {
-  Decoder(const Dataset& source, const FrameSelection& wanted)
-      : dataset(source),
+  /// `ordered` is the source where it has to be read front to back, else null.
+  Decoder(const FrameSource& from, FrameSource* ordered, const FrameSelection& wanted)
+      : source(from),
+        in_order(ordered),
         selection(wanted),
-        count(count_selected(source, wanted)),
-        intrinsics(scaled_intrinsics(source, wanted.scale)),
+        count(count_selected(from, wanted)),
+        intrinsics(scaled_intrinsics(from, wanted.scale)),
         thread([this] { run(); }) {}
 
   ~Decoder() {
@@ -61,9 +89,10 @@ struct FrameStream::Decoder {
   /// Decodes frame after frame until all are done or the stream is destroyed.
   void run() {
     try {
-      for (int n = 0; n < count; ++n) {
-        if (!push(decode(selection.start + n * selection.stride))) return;
-      }
+      if (in_order)
+        read_in_order(*in_order);
+      else
+        load_selected(*source.recording());
     } catch (...) {
       // Handed to the consumer, in its place after the frames that were decoded before.
       const std::lock_guard lock(mutex);
@@ -74,84 +103,132 @@ struct FrameStream::Decoder {
     changed.notify_all();
   }
 
-  /// A frame that cannot be decoded is one bad frame; lack of memory is not, and passes through.
-  LoadedFrame decode(int index) const {
-    LoadedFrame loaded;
-    try {
-      loaded = dataset.load(index);
-      if (loaded.frame) loaded.frame = resize_frame(*loaded.frame, selection.scale);
-    } catch (const std::bad_alloc&) {
-      throw;
-    } catch (const std::exception& error) {
-      loaded = {std::nullopt, error.what()};
+  void load_selected(const Recording& recording) {
+    for (int n = 0; n < *count; ++n) {
+      const int index = selection.start + n * selection.stride;
+      const auto load = [&] {
+        LoadedFrame loaded = recording.load(index);
+        if (loaded.frame) loaded.frame = resize_frame(*loaded.frame, selection.scale);
+        return loaded;
+      };
+      if (!push({index, decode(load)})) return;
     }
-    return loaded;
+  }
+
+  void read_in_order(FrameSource& from) {
+    std::size_t noted = from.problems().size();
+    for (bool more = true; more;) {
+      const std::optional<Frame> frame = from.next();
+      for (; more && noted < from.problems().size(); ++noted) {
+        const SkippedFrame& skipped = from.problems()[noted];
+        more = pass(skipped.index, [&] { return LoadedFrame{std::nullopt, skipped.reason}; });
+      }
+      if (!frame) return;
+      more = more && pass(frame->index, [&] {
+               return LoadedFrame{resize_frame(*frame, selection.scale), ""};
+             });
+    }
+  }
+
+  /// Pushes what is at the next position of the source if that is selected; false when no more is wanted.
+  template <typename Load>
+  bool pass(int index, Load load) {
+    const int after_start = position++ - selection.start;
+    if (after_start < 0 || after_start % selection.stride != 0) return true;
+    return push({index, decode(load)}) &&
+           (selection.frames == 0 || after_start / selection.stride + 1 < selection.frames);
   }
 
   /// Waits for room in the queue; false when the stream is being destroyed.
-  bool push(LoadedFrame loaded) {
+  bool push(Decoded decoded) {
     std::unique_lock lock(mutex);
     changed.wait(lock, [&] { return stopping || queue.size() < static_cast<std::size_t>(selection.ahead); });
     if (stopping) return false;
-    queue.push_back(std::move(loaded));
+    queue.push_back(std::move(decoded));
     changed.notify_all();
     return true;
   }
 
   /// Waits for the next entry; nullopt after the last.
-  std::optional<LoadedFrame> pop() {
+  std::optional<Decoded> pop() {
     std::unique_lock lock(mutex);
     changed.wait(lock, [&] { return finished || !queue.empty(); });
     if (queue.empty()) {
       if (failure) std::rethrow_exception(failure);
       return std::nullopt;
     }
-    LoadedFrame loaded = std::move(queue.front());
+    Decoded decoded = std::move(queue.front());
     queue.pop_front();
     changed.notify_all();
-    return loaded;
+    return decoded;
   }
 
-  const Dataset& dataset;
+  const FrameSource& source;
+  FrameSource* const in_order;
   const FrameSelection selection;
-  const int count;
+  const std::optional<int> count;
   const Intrinsics intrinsics;
-  int delivered = 0;                  ///< entries taken by the consumer; only the consumer touches it
-  std::vector<SkippedFrame> skipped;  ///< only the consumer touches it
+  std::vector<SkippedFrame> problems;  ///< only the consumer touches it
+  int position = 0;                    ///< of the source that is read in order; only the thread touches it
 
   std::mutex mutex;  ///< guards what follows
   std::condition_variable changed;
-  std::deque<LoadedFrame> queue;
+  std::deque<Decoded> queue;
   bool finished = false;
   bool stopping = false;
   std::exception_ptr failure;
   std::thread thread;  ///< last, so that it starts when all else exists
 };
 
-FrameStream::FrameStream(const Dataset& dataset, const FrameSelection& selection)
-    : decoder_(std::make_unique<Decoder>(dataset, selection)) {}
+FrameStream::FrameStream(const Recording& recording, const FrameSelection& selection)
+    : decoder_(std::make_unique<Decoder>(recording, nullptr, selection)) {}
+
+// A recording that is known as a source only can be loaded from as well. Others that have one do not give all
+// of its frames.
+FrameStream::FrameStream(FrameSource& source, const FrameSelection& selection)
+    : decoder_(
+          std::make_unique<Decoder>(source, source.recording() == &source ? nullptr : &source, selection)) {}
 
 FrameStream::~FrameStream() = default;
 
 std::optional<Frame> FrameStream::next() {
-  while (std::optional<LoadedFrame> loaded = decoder_->pop()) {
-    const int index = decoder_->selection.start + decoder_->delivered++ * decoder_->selection.stride;
-    if (loaded->frame) return std::move(loaded->frame);
-    decoder_->skipped.push_back({index, std::move(loaded->problem)});
+  while (std::optional<Decoded> decoded = decoder_->pop()) {
+    if (decoded->loaded.frame) return std::move(decoded->loaded.frame);
+    decoder_->problems.push_back({decoded->index, std::move(decoded->loaded.problem)});
   }
   return std::nullopt;
 }
 
-const Intrinsics& FrameStream::intrinsics() const {
+std::string FrameStream::name() const {
+  return decoder_->source.name();
+}
+
+std::string FrameStream::format() const {
+  return decoder_->source.format();
+}
+
+Intrinsics FrameStream::intrinsics() const {
   return decoder_->intrinsics;
 }
 
-int FrameStream::size() const {
+std::optional<int> FrameStream::size() const {
   return decoder_->count;
 }
 
-const std::vector<SkippedFrame>& FrameStream::skipped() const {
-  return decoder_->skipped;
+const std::vector<SkippedFrame>& FrameStream::problems() const {
+  return decoder_->problems;
+}
+
+std::vector<std::string> FrameStream::warnings() const {
+  return decoder_->source.warnings();
+}
+
+Pose FrameStream::tracked_to_reference() const {
+  return decoder_->source.tracked_to_reference();
+}
+
+const Recording* FrameStream::recording() const {
+  return decoder_->source.recording();
 }
 
 }  // namespace surefield

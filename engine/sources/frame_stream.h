@@ -5,50 +5,52 @@
 #include <string>
 #include <vector>
 
-#include "engine/sources/dataset.h"
+#include "engine/sources/recording.h"
 
 namespace surefield {
 
-/// Which frames of a dataset to stream, and how.
+/// Which frames of a source to stream, and how. Positions count the frames that the source gives and those
+/// that it passes over.
 struct FrameSelection {
-  int start = 0;     ///< index of the first frame
+  int start = 0;     ///< position of the first frame
   int stride = 1;    ///< every stride-th frame from there
   int frames = 0;    ///< how many frames to stream at most; 0 for all
   double scale = 1;  ///< size of the streamed images relative to the originals, in (0, 1]
   int ahead = 4;     ///< frames decoded ahead of the consumer, at most
 };
 
-/// A frame that could not be read.
-struct SkippedFrame {
-  int index = 0;       ///< position in the original sequence
-  std::string reason;  ///< one line that names the file
-};
-
-/// Streams selected frames of a dataset in order, resized, decoded ahead on a thread of its own. One
-/// consumer.
-class FrameStream {
+/// Streams selected frames of a source in order, resized, decoded ahead on a thread of its own. One consumer.
+class FrameStream : public FrameSource {
  public:
-  /// Starts decoding. `dataset` must outlive the stream. Throws InputError when the selection is out of range
-  /// or selects no frame.
-  FrameStream(const Dataset& dataset, const FrameSelection& selection);
+  /// Starts decoding; only the selected frames are loaded. `recording` must outlive the stream, and may be
+  /// streamed and loaded from by others at the same time. Throws InputError when the selection is out of
+  /// range or selects no frame.
+  FrameStream(const Recording& recording, const FrameSelection& selection);
 
-  /// Stops decoding, at the latest after the frame in work.
-  ~FrameStream();
+  /// The same for any source: reads it front to back, those that are not selected too, and nobody else may
+  /// call its next() or problems() meanwhile. Where nobody knows the source's size, start may lie beyond its
+  /// end.
+  FrameStream(FrameSource& source, const FrameSelection& selection);
+
+  /// Stops decoding, at the latest after the frame in work, or that the source waits for.
+  ~FrameStream() override;
   FrameStream(const FrameStream&) = delete;
   FrameStream& operator=(const FrameStream&) = delete;
 
-  /// The next readable frame, waiting for it if need be; nullopt after the last. A frame that cannot be read
-  /// is skipped and noted in skipped(). Rethrows what stops the decoder altogether, such as lack of memory.
-  std::optional<Frame> next();
-
-  /// Intrinsics of the streamed frames, Intrinsics::scaled of the dataset's.
-  const Intrinsics& intrinsics() const;
-
-  /// Number of frames selected, the unreadable ones included.
-  int size() const;
-
-  /// The frames that next() has passed over so far, in order.
-  const std::vector<SkippedFrame>& skipped() const;
+  std::string name() const override;
+  std::string format() const override;
+  /// Intrinsics::scaled of the source's.
+  Intrinsics intrinsics() const override;
+  /// Number of frames selected, the unreadable ones included; nullopt where the source's is not known.
+  std::optional<int> size() const override;
+  /// Rethrows what stops the decoder altogether, such as lack of memory, after the frames before it.
+  std::optional<Frame> next() override;
+  /// Of the selected frames.
+  const std::vector<SkippedFrame>& problems() const override;
+  std::vector<std::string> warnings() const override;
+  Pose tracked_to_reference() const override;
+  /// The source's: all of its frames, at their original size.
+  const Recording* recording() const override;
 
  private:
   struct Decoder;

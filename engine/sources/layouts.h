@@ -1,9 +1,9 @@
 #pragma once
 
 #include <filesystem>
-#include <memory>
 
-#include "engine/sources/file_dataset.h"
+#include "engine/sources/file_recording.h"
+#include "engine/sources/open_dataset.h"
 
 namespace surefield {
 
@@ -28,7 +28,7 @@ StoredSequence read_scannet_sequence(const std::filesystem::path& folder);
 
 inline constexpr const char* kSensLayout = "one .sens file";
 bool is_sens(const std::filesystem::path& path);
-std::unique_ptr<Dataset> open_sens(const std::filesystem::path& path);
+Dataset open_sens(const std::filesystem::path& path);
 
 inline constexpr const char* kIclLayout = "associations.txt without rgb.txt";
 bool is_icl(const std::filesystem::path& folder);

@@ -25,21 +25,16 @@ std::vector<std::filesystem::path> sens_files(const std::filesystem::path& path)
   return files;
 }
 
-class SensDataset : public Dataset {
+class SensRecording : public Recording {
  public:
-  explicit SensDataset(SensFile sens) : sens_(std::move(sens)) {
-    for (std::size_t i = 0; i < sens_.frames.size(); ++i) {
-      truth_.push_back({static_cast<double>(i), sens_.frames[i].camera_to_world});
-    }
-  }
+  explicit SensRecording(SensFile sens) : sens_(std::move(sens)) {}
 
   std::string name() const override { return sens_.file.stem().string(); }
   std::string format() const override { return "scannet"; }
-  int size() const override { return static_cast<int>(sens_.frames.size()); }
+  int count() const override { return static_cast<int>(sens_.frames.size()); }
   Intrinsics intrinsics() const override { return sens_.depth; }
   double depth_unit() const override { return sens_.depth_unit; }
   double timestamp(int i) const override { return i; }
-  const Trajectory* ground_truth() const override { return &truth_; }
 
   LoadedFrame load(int i) const override {
     try {
@@ -57,7 +52,6 @@ class SensDataset : public Dataset {
 
  private:
   SensFile sens_;
-  Trajectory truth_;
 };
 
 }  // namespace
@@ -67,12 +61,16 @@ bool is_sens(const std::filesystem::path& path) {
   return !is_scannet(path) && !sens_files(path).empty();
 }
 
-std::unique_ptr<Dataset> open_sens(const std::filesystem::path& path) {
+Dataset open_sens(const std::filesystem::path& path) {
   const auto files = sens_files(path);
   if (files.size() > 1) {
     throw InputError(path, fmt::format("holds {} .sens files; give the path of one of them", files.size()));
   }
-  return std::make_unique<SensDataset>(read_sens_file(files.front()));
+  SensFile sens = read_sens_file(files.front());
+  Trajectory truth;
+  for (std::size_t i = 0; i < sens.frames.size(); ++i)
+    truth.push_back({static_cast<double>(i), sens.frames[i].camera_to_world});
+  return {std::make_unique<SensRecording>(std::move(sens)), std::move(truth)};
 }
 
 }  // namespace surefield

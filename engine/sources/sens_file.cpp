@@ -14,7 +14,7 @@
 
 #include "engine/io/files.h"
 #include "engine/io/images.h"
-#include "engine/sources/file_dataset.h"
+#include "engine/sources/file_recording.h"
 #include "engine/types/error.h"
 
 namespace surefield {

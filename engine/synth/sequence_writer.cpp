@@ -63,11 +63,11 @@ std::string matrix_row(const Eigen::Matrix4d& matrix) {
 
 }  // namespace
 
-SequenceWriter::SequenceWriter(fs::path folder, SequenceLayout layout, const SyntheticDataset& dataset)
-    : folder_(std::move(folder)), layout_(layout), dataset_(dataset) {
+SequenceWriter::SequenceWriter(fs::path folder, SequenceLayout layout, const SyntheticRecording& recording)
+    : folder_(std::move(folder)), layout_(layout), recording_(recording) {
   prepare_folder(folder_);
   write_settings(false);
-  write_mesh(folder_ / "mesh.ply", make_scene_mesh(dataset.scene()));
+  write_mesh(folder_ / "mesh.ply", make_scene_mesh(recording.scene()));
   write_camera();
   for (const char* name :
        layout_ == SequenceLayout::Replica ? std::vector{"results"} : std::vector{"rgb", "depth"})
@@ -75,7 +75,7 @@ SequenceWriter::SequenceWriter(fs::path folder, SequenceLayout layout, const Syn
 }
 
 void SequenceWriter::write_settings(bool complete) const {
-  const SynthSettings& s = dataset_.settings();
+  const SynthSettings& s = recording_.settings();
   const nlohmann::json json = {{"schema", "surefield-synth"},
                                {"version", 1},
                                {"scene", s.scene},
@@ -92,7 +92,7 @@ void SequenceWriter::write_settings(bool complete) const {
 }
 
 void SequenceWriter::write_camera() const {
-  const Intrinsics k = dataset_.intrinsics();
+  const Intrinsics k = recording_.intrinsics();
   if (layout_ == SequenceLayout::Tum) {
     return write_file(folder_ / kCameraFile, [&](std::ostream& stream) {
       stream << fmt::format("width: {}\nheight: {}\nfx: {}\nfy: {}\ncx: {}\ncy: {}\ndepth_unit: {}\n",
@@ -124,10 +124,10 @@ void SequenceWriter::write_depth(const fs::path& name, const cv::Mat& metres) co
 }
 
 void SequenceWriter::write(int i) {
-  const Frame frame = dataset_.load(i).frame.value();
+  const Frame frame = recording_.load(i).frame.value();
   if (layout_ == SequenceLayout::Tum) {
-    write_png(folder_ / stamped("rgb", dataset_.colour_timestamp(i)), frame.colour);
-    write_depth(stamped("depth", dataset_.timestamp(i)), frame.depth);
+    write_png(folder_ / stamped("rgb", recording_.colour_timestamp(i)), frame.colour);
+    write_depth(stamped("depth", recording_.timestamp(i)), frame.depth);
   } else {
     write_jpeg(folder_ / fmt::format("results/frame{:06}.jpg", i), frame.colour, kJpegQuality);
     write_depth(fmt::format("results/depth{:06}.png", i), frame.depth);
@@ -139,11 +139,11 @@ void SequenceWriter::write_tum_lists() const {
   Trajectory truth;
   std::string colours, depths;
   for (int i = 0; i < written_; ++i) {
-    const double colour = dataset_.colour_timestamp(i), depth = dataset_.timestamp(i);
+    const double colour = recording_.colour_timestamp(i), depth = recording_.timestamp(i);
     colours += fmt::format("{:.6f} {}\n", colour, stamped("rgb", colour));
     depths += fmt::format("{:.6f} {}\n", depth, stamped("depth", depth));
-    truth.push_back({depth, dataset_.true_pose(depth)});
-    if (colour != depth) truth.push_back({colour, dataset_.true_pose(colour)});
+    truth.push_back({depth, recording_.true_pose(depth)});
+    if (colour != depth) truth.push_back({colour, recording_.true_pose(colour)});
   }
   write_file(folder_ / "depth.txt", [&](std::ostream& stream) { stream << depths; });
   write_file(folder_ / "rgb.txt", [&](std::ostream& stream) { stream << colours; });
@@ -156,10 +156,10 @@ void SequenceWriter::finish() {
   } else {
     write_file(folder_ / "traj.txt", [&](std::ostream& stream) {
       for (int i = 0; i < written_; ++i)
-        stream << matrix_row(dataset_.true_pose(dataset_.timestamp(i)).matrix());
+        stream << matrix_row(recording_.true_pose(recording_.timestamp(i)).matrix());
     });
   }
-  write_settings(written_ == dataset_.size());
+  write_settings(written_ == recording_.count());
 }
 
 }  // namespace surefield

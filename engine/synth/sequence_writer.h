@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/synth/synthetic_dataset.h"
+#include "engine/synth/synthetic_recording.h"
 
 namespace surefield {
 
@@ -17,7 +17,7 @@ class SequenceWriter {
  public:
   /// Creates the folder and writes all but the frames. Files of an earlier sequence that was written here are
   /// removed. Throws InputError where the folder holds anything else, or cannot be written.
-  SequenceWriter(std::filesystem::path folder, SequenceLayout layout, const SyntheticDataset& dataset);
+  SequenceWriter(std::filesystem::path folder, SequenceLayout layout, const SyntheticRecording& recording);
 
   /// Writes frame `i`; frames come in order. Throws InputError.
   void write(int i);
@@ -34,7 +34,7 @@ class SequenceWriter {
 
   std::filesystem::path folder_;
   SequenceLayout layout_;
-  const SyntheticDataset& dataset_;
+  const SyntheticRecording& recording_;
   int written_ = 0;
 };
 

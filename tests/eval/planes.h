@@ -4,25 +4,26 @@
 #include <cmath>
 #include <numbers>
 
-#include "engine/sources/dataset.h"
+#include "engine/sources/recording.h"
 
 namespace surefield::test {
 
-/// Textured plates that face a camera swaying before them, seen exactly, with calibration as told: a dataset
-/// of which everything is known.
-class PlanesDataset : public Dataset {
+/// Textured plates that face a camera swaying before them, seen exactly, with calibration as told: a
+/// recording of which everything is known.
+class PlanesRecording : public Recording {
  public:
-  explicit PlanesDataset(int frames = 40) {
+  explicit PlanesRecording(int frames = 40) {
     for (int i = 0; i < frames; ++i) truth_.push_back({i / kRate, pose(i / kRate)});
   }
 
   std::string name() const override { return "planes"; }
   std::string format() const override { return "memory"; }
-  int size() const override { return static_cast<int>(truth_.size()); }
+  int count() const override { return static_cast<int>(truth_.size()); }
   Intrinsics intrinsics() const override { return told; }
   double depth_unit() const override { return 0.001; }
   double timestamp(int i) const override { return i / kRate; }
-  const Trajectory* ground_truth() const override { return with_truth ? &truth_ : nullptr; }
+  /// Null where there is to be none.
+  const Trajectory* ground_truth() const { return with_truth ? &truth_ : nullptr; }
 
   LoadedFrame load(int i) const override {
     Frame frame{i, timestamp(i), cv::Mat(true_camera.height, true_camera.width, CV_8UC3),

@@ -12,7 +12,7 @@
 
 using namespace surefield;
 using test::contains;
-using test::PlanesDataset;
+using test::PlanesRecording;
 
 namespace {
 
@@ -23,27 +23,27 @@ const Judgement& judged(const DatasetCheck& check, CheckedValue value) {
   return judgement;
 }
 
-std::string findings_text(const DatasetCheck& check, const Dataset& dataset) {
+std::string findings_text(const DatasetCheck& check, const Recording& recording) {
   std::string text;
-  for (const std::string& finding : check_findings(check, dataset)) text += finding + "\n";
+  for (const std::string& finding : check_findings(check, recording)) text += finding + "\n";
   return text;
 }
 
 /// Another dataset, changed in memory.
-class Altered : public Dataset {
+class Altered : public Recording {
  public:
-  explicit Altered(const Dataset& original) : camera(original.intrinsics()), original_(original) {
-    if (original.ground_truth()) truth = *original.ground_truth();
+  explicit Altered(const Dataset& original)
+      : camera(original.recording->intrinsics()), original_(*original.recording) {
+    if (original.ground_truth) truth = *original.ground_truth;
   }
 
   std::string name() const override { return original_.name(); }
   std::string format() const override { return original_.format(); }
-  int size() const override { return original_.size() - depth_back; }
+  int count() const override { return original_.count() - depth_back; }
   Intrinsics intrinsics() const override { return camera; }
   double depth_unit() const override { return original_.depth_unit() * depth_factor; }
   double timestamp(int i) const override { return original_.timestamp(i + depth_back); }
   double depth_timestamp(int i) const override { return original_.depth_timestamp(i + depth_back); }
-  const Trajectory* ground_truth() const override { return &truth; }
   Pose tracked_to_reference() const override { return original_.tracked_to_reference(); }
 
   LoadedFrame load(int i) const override {
@@ -64,7 +64,7 @@ class Altered : public Dataset {
   int depth_back = 0;  ///< depth comes from so many frames before
 
  private:
-  const Dataset& original_;
+  const Recording& original_;
 };
 
 /// Stretches the pixels to another shape, of which the intrinsics know, then swaps fx and fy.
@@ -78,19 +78,19 @@ Altered swapped(const Dataset& dataset) {
   return altered;
 }
 
-std::unique_ptr<Dataset> unregistered_kitchen(const std::filesystem::path& folder) {
+Dataset unregistered_kitchen(const std::filesystem::path& folder) {
   StoredSequence sequence = read_sevenscenes_sequence(folder);
   sequence.intrinsics = sequence.registration->depth;
   sequence.registration.reset();
   sequence.tracked_to_reference = Pose::Identity();
-  return std::make_unique<FileDataset>(sequence);
+  return {std::make_unique<FileRecording>(sequence), sequence.ground_truth};
 }
 
 }  // namespace
 
 TEST_CASE("plates as told: nothing is found wrong, and frames fit exactly") {
-  const PlanesDataset planes(30);
-  const DatasetCheck check = check_dataset(planes);
+  const PlanesRecording planes(30);
+  const DatasetCheck check = check_dataset(planes, planes.ground_truth());
   CHECK(check.has_poses);
   CHECK_FALSE(check.stamps_are_indices);
   CHECK(check.error.pairs >= 15);
@@ -101,9 +101,9 @@ TEST_CASE("plates as told: nothing is found wrong, and frames fit exactly") {
 }
 
 TEST_CASE("plates with depth 1.25 times too large: the scale is found, nothing else") {
-  PlanesDataset planes(30);
+  PlanesRecording planes(30);
   planes.depth_factor = 1.25;
-  const DatasetCheck check = check_dataset(planes);
+  const DatasetCheck check = check_dataset(planes, planes.ground_truth());
   const Judgement& scale = judged(check, CheckedValue::DepthScale);
   CHECK(scale.wrong);
   CHECK(scale.best == doctest::Approx(0.8).epsilon(0.02));
@@ -114,34 +114,35 @@ TEST_CASE("plates with depth 1.25 times too large: the scale is found, nothing e
 
 TEST_CASE(
     "[slow] plates with swapped focal lengths, shifted depth, or late stamps: each is found and measured") {
-  PlanesDataset focal(30);
+  PlanesRecording focal(30);
   focal.true_camera.fy = 140;
   focal.told = focal.true_camera;
   std::swap(focal.told.fx, focal.told.fy);
-  CHECK(findings_text(check_dataset(focal), focal) == "fx and fy look swapped: fx 110, fy 140 would fit\n");
-  PlanesDataset shifted(30);
+  CHECK(findings_text(check_dataset(focal, focal.ground_truth()), focal) ==
+        "fx and fy look swapped: fx 110, fy 140 would fit\n");
+  PlanesRecording shifted(30);
   shifted.depth_shift = 6;
-  const DatasetCheck shift = check_dataset(shifted);
+  const DatasetCheck shift = check_dataset(shifted, shifted.ground_truth());
   CHECK(judged(shift, CheckedValue::DepthShiftX).wrong);
   CHECK(judged(shift, CheckedValue::DepthShiftX).best == doctest::Approx(-6).epsilon(0.1));
   CHECK(contains(findings_text(shift, shifted), "depth is not registered to colour"));
-  PlanesDataset late(30);
+  PlanesRecording late(30);
   late.image_delay = 0.03;
-  const DatasetCheck delay = check_dataset(late);
+  const DatasetCheck delay = check_dataset(late, late.ground_truth());
   CHECK(judged(delay, CheckedValue::PoseDelay).wrong);
   CHECK(judged(delay, CheckedValue::PoseDelay).best == doctest::Approx(0.03).epsilon(0.15));
   CHECK(contains(findings_text(delay, late), "the images look taken 3"));
-  PlanesDataset depth_late(30);
+  PlanesRecording depth_late(30);
   depth_late.depth_delay = 0.04;
-  const DatasetCheck depth_delay = check_dataset(depth_late);
+  const DatasetCheck depth_delay = check_dataset(depth_late, depth_late.ground_truth());
   CHECK(judged(depth_delay, CheckedValue::DepthDelay).wrong);
   CHECK(judged(depth_delay, CheckedValue::DepthDelay).best == doctest::Approx(0.04).epsilon(0.15));
 }
 
 TEST_CASE("without poses the registration alone is judged") {
-  PlanesDataset planes(12);
+  PlanesRecording planes(12);
   planes.with_truth = false;
-  const DatasetCheck check = check_dataset(planes);
+  const DatasetCheck check = check_dataset(planes, planes.ground_truth());
   CHECK_FALSE(check.has_poses);
   CHECK(check.error.pairs == 0);
   CHECK_FALSE(check.judgements.at(static_cast<std::size_t>(CheckedValue::DepthScale)).judged);
@@ -156,9 +157,10 @@ TEST_CASE("[slow] the real clips as they are: nothing is found wrong") {
     if (folder.empty()) continue;
     CAPTURE(name);
     const auto dataset = open_dataset(folder);
-    const DatasetCheck check = check_dataset(*dataset);
+    const DatasetCheck check = check_dataset(*dataset.recording, dataset.truth());
     CHECK(check.error.pairs >= 15);
-    CHECK_MESSAGE(check_findings(check, *dataset).empty(), findings_text(check, *dataset));
+    CHECK_MESSAGE(check_findings(check, *dataset.recording).empty(),
+                  findings_text(check, *dataset.recording));
   }
 }
 
@@ -166,22 +168,22 @@ TEST_CASE("[slow] fr1_xyz altered: depth scale, stamps of the poses, depth of an
   const auto folder = test::real_clip("tum_fr1_xyz");
   if (folder.empty()) return;
   const auto dataset = open_dataset(folder);
-  Altered scaled(*dataset);
+  Altered scaled(dataset);
   scaled.depth_factor = 1.25;
-  const DatasetCheck scale = check_dataset(scaled);
+  const DatasetCheck scale = check_dataset(scaled, &scaled.truth);
   CHECK(judged(scale, CheckedValue::DepthScale).wrong);
   CHECK(judged(scale, CheckedValue::DepthScale).best == doctest::Approx(0.8).epsilon(0.04));
   CHECK(contains(findings_text(scale, scaled), "do the files use 1/5000 m?"));
   for (double delay : {0.03, -0.03}) {
-    Altered late(*dataset);
+    Altered late(dataset);
     for (StampedPose& pose : late.truth) pose.timestamp += delay;
-    const DatasetCheck check = check_dataset(late);
+    const DatasetCheck check = check_dataset(late, &late.truth);
     CHECK(judged(check, CheckedValue::PoseDelay).wrong);
     CHECK(std::abs(judged(check, CheckedValue::PoseDelay).best - delay) < 0.008);
   }
-  Altered old_depth(*dataset);
+  Altered old_depth(dataset);
   old_depth.depth_back = 1;
-  const DatasetCheck depth = check_dataset(old_depth);
+  const DatasetCheck depth = check_dataset(old_depth, &old_depth.truth);
   CHECK(judged(depth, CheckedValue::DepthDelay).wrong);
   CHECK(judged(depth, CheckedValue::DepthDelay).best < -0.03);
 }
@@ -192,8 +194,8 @@ TEST_CASE("[slow] clips stretched to other pixels, with fx and fy swapped: the s
     if (folder.empty()) continue;
     CAPTURE(name);
     const auto dataset = open_dataset(folder);
-    const Altered altered = swapped(*dataset);
-    CHECK(contains(findings_text(check_dataset(altered), altered), "fx and fy look swapped"));
+    const Altered altered = swapped(dataset);
+    CHECK(contains(findings_text(check_dataset(altered, &altered.truth), altered), "fx and fy look swapped"));
   }
 }
 
@@ -201,8 +203,9 @@ TEST_CASE("[slow] RedKitchen read without registration: depth is not registered"
   const auto folder = test::real_clip("sevenscenes_redkitchen");
   if (folder.empty()) return;
   const auto raw = unregistered_kitchen(folder);
-  const DatasetCheck before = check_dataset(*raw);
-  CHECK(contains(findings_text(before, *raw), "depth is not registered to colour"));
+  const DatasetCheck before = check_dataset(*raw.recording, raw.truth());
+  CHECK(contains(findings_text(before, *raw.recording), "depth is not registered to colour"));
   const auto registered = open_dataset(folder);
-  CHECK(check_dataset(*registered).error.grey_levels < 0.8 * before.error.grey_levels);
+  CHECK(check_dataset(*registered.recording, registered.truth()).error.grey_levels <
+        0.8 * before.error.grey_levels);
 }

@@ -3,28 +3,29 @@
 
 #include <cmath>
 
+#include "engine/sources/open_dataset.h"
 #include "engine/types/error.h"
 #include "tests/eval/planes.h"
 #include "tests/support/input_files.h"
 
 using namespace surefield;
-using test::PlanesDataset;
+using test::PlanesRecording;
 
 namespace {
 
 /// Plates as colour images at 30 a second and depth images at 30 a second between them, each colour image
 /// with the depth image that is nearest by its stamp.
-class Paired : public PlanesDataset {
+class Paired : public PlanesRecording {
  public:
   static constexpr int kFrames = 60;
   static constexpr double kPhase = -0.012;  ///< stamps of depth images after those of colour images, seconds
 
   /// Depth images are taken `delay` seconds after what their stamps say, to which `added` seconds are added.
-  Paired(double delay, double added) : PlanesDataset(kFrames), delay_(delay), added_(added) {}
+  Paired(double delay, double added) : PlanesRecording(kFrames), delay_(delay), added_(added) {}
 
   double depth_timestamp(int i) const override { return stamp_of(i) + added_; }
   LoadedFrame load(int i) const override {
-    PlanesDataset planes(kFrames);
+    PlanesRecording planes(kFrames);
     planes.depth_delay = stamp_of(i) + delay_ - timestamp(i);
     return planes.load(i);
   }
@@ -56,15 +57,15 @@ TEST_CASE(
     "depth images whose nearest partner is the right one, and sequences without such stamps: no delay") {
   CHECK(estimated(0) == 0);
   CHECK(estimated(0.01) == 0);
-  const auto open = [](double) -> std::unique_ptr<Dataset> {
+  const auto open = [](double) -> std::unique_ptr<Recording> {
     FAIL("opened, though depth images have no stamps of their own");
     return nullptr;
   };
-  CHECK(estimate_depth_delay(PlanesDataset(30), open) == 0);
+  CHECK(estimate_depth_delay(PlanesRecording(30), open) == 0);
 }
 
 TEST_CASE("nothing fits together one image earlier or later: no delay") {
-  const auto open = [](double) -> std::unique_ptr<Dataset> { throw InputError("no pairs"); };
+  const auto open = [](double) -> std::unique_ptr<Recording> { throw InputError("no pairs"); };
   CHECK(estimate_depth_delay(Paired(0.04, 0), open) == 0);
 }
 
@@ -73,7 +74,7 @@ TEST_CASE("too few frames: no delay") {
   class Short : public Paired {
    public:
     using Paired::Paired;
-    int size() const override { return 5; }
+    int count() const override { return 5; }
   };
   CHECK(estimate_depth_delay(Short(0.03, 0), open) == 0);
 }
@@ -82,7 +83,7 @@ TEST_CASE(
     "[slow] fr1_xyz: depth images are about two thirds of a frame late, by edges as by the true poses") {
   const auto folder = test::real_clip("tum_fr1_xyz");
   if (folder.empty()) return;
-  const auto open = [&](double added) { return open_dataset(folder, "tum", added); };
+  const auto open = [&](double added) { return open_dataset(folder, "tum", added).recording; };
   const double delay = estimate_depth_delay(*open(0), open);
   CHECK(delay < -0.015);
   CHECK(delay > -0.03);

@@ -6,7 +6,7 @@
 #include <random>
 
 #include "engine/eval/trajectory_metrics.h"
-#include "engine/sources/dataset.h"
+#include "engine/sources/open_dataset.h"
 #include "tests/support/input_files.h"
 
 using namespace surefield;
@@ -82,7 +82,7 @@ TEST_CASE("ATE on real trajectories equals that of Horn's quaternion method") {
     const auto folder = real_clip(name);
     if (folder.empty()) continue;
     CAPTURE(name);
-    const Trajectory truth = *open_dataset(folder)->ground_truth();
+    const Trajectory truth = *open_dataset(folder).ground_truth;
     REQUIRE(truth.size() >= 20);
     for (uint32_t seed : {1u, 2u, 3u}) {
       const Trajectory estimate = disturbed(truth, seed);

@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "engine/slam/slam.h"
-#include "engine/synth/synthetic_dataset.h"
+#include "engine/synth/synthetic_recording.h"
 #include "tests/support/device.h"
 
 namespace surefield::testing {
@@ -14,8 +14,8 @@ inline EngineOptions engine_options() {
 }
 
 /// The synthetic office in small images.
-inline SyntheticDataset office(int frames) {
-  return SyntheticDataset(device_options(), {.width = 96, .height = 72, .frames = frames});
+inline SyntheticRecording office(int frames) {
+  return SyntheticRecording(device_options(), {.width = 96, .height = 72, .frames = frames});
 }
 
 /// Settings of few steps, with which every third frame becomes a keyframe.
@@ -32,7 +32,7 @@ inline SlamSettings quick_settings() {
 /// The first so many frames of the office, loaded once.
 inline const std::vector<Frame>& office_frames() {
   static const std::vector<Frame> frames = [] {
-    const SyntheticDataset dataset = office(8);
+    const SyntheticRecording dataset = office(8);
     std::vector<Frame> loaded;
     for (int i = 0; i < dataset.size(); ++i) loaded.push_back(*dataset.load(i).frame);
     return loaded;

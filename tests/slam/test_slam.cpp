@@ -21,15 +21,15 @@ struct Run {
 };
 
 Run run(int frames, const SlamSettings& settings) {
-  const SyntheticDataset dataset = office(frames);
-  FrameStream stream(dataset, {});
+  const SyntheticRecording recording = office(frames);
+  FrameStream stream(recording, {});
   Slam slam(settings, stream.intrinsics(), engine_options());
   while (const auto frame = stream.next()) slam.feed(*frame);
   slam.finish();
   CHECK(slam.engine_report().validation_messages.empty());
   CHECK(slam.keyframes().size() ==
         static_cast<std::size_t>((frames + 2) / 3 + (frames % 3 != 1)));  // the last one too
-  return {slam.trajectory(), slam.map(), slam.reports(), *dataset.ground_truth()};
+  return {slam.trajectory(), slam.map(), slam.reports(), recording.ground_truth()};
 }
 
 }  // namespace
@@ -54,8 +54,8 @@ TEST_CASE("SLAM follows the synthetic office, and the same run gives the same bi
 }
 
 TEST_CASE("settings that are changed count from the next frame on") {
-  const SyntheticDataset dataset = office(5);
-  FrameStream stream(dataset, {});
+  const SyntheticRecording recording = office(5);
+  FrameStream stream(recording, {});
   SlamSettings settings = quick_settings();
   Slam slam(settings, stream.intrinsics(), engine_options());
   slam.feed(*stream.next());
@@ -103,20 +103,20 @@ TEST_CASE("a run on a small budget of device memory keeps to it, and its map is 
 }
 
 TEST_CASE("the map keeps its exposure where the camera's changes, if it is told to") {
-  const SyntheticDataset dataset = office(4);
+  const SyntheticRecording recording = office(4);
   const auto brightness_of_last = [&](bool exposure, double gain) {
     SlamSettings settings = quick_settings();
     settings.mapping_iterations = 40;
     settings.keyframes.exposure = exposure;
     settings.lost.loss_jump = 1e6;
-    Slam slam(settings, dataset.intrinsics(), engine_options());
+    Slam slam(settings, recording.intrinsics(), engine_options());
     for (int i = 0; i < 4; ++i) {
-      Frame frame = *dataset.load(i).frame;
+      Frame frame = *recording.load(i).frame;
       if (i == 3) frame.colour.convertTo(frame.colour, -1, gain);
       slam.feed(frame);
     }
     CHECK(slam.reports()[3].keyframe);
-    const RenderImages images = slam.render({dataset.intrinsics(), slam.reports()[3].world_to_camera});
+    const RenderImages images = slam.render({recording.intrinsics(), slam.reports()[3].world_to_camera});
     return std::accumulate(images.colour.begin(), images.colour.end(), 0.0);
   };
   const double steady = brightness_of_last(false, 1);
@@ -136,10 +136,10 @@ TEST_CASE("a run whose windows are chosen by images follows the office") {
 }
 
 TEST_CASE("a frame that shows something else is reported as lost after re-tries, and the run goes on") {
-  const SyntheticDataset dataset = office(6);
-  Slam slam(quick_settings(), dataset.intrinsics(), engine_options());
-  for (int i = 0; i < 3; ++i) slam.feed(*dataset.load(i).frame);
-  Frame covered = *dataset.load(3).frame;
+  const SyntheticRecording recording = office(6);
+  Slam slam(quick_settings(), recording.intrinsics(), engine_options());
+  for (int i = 0; i < 3; ++i) slam.feed(*recording.load(i).frame);
+  Frame covered = *recording.load(3).frame;
   covered.depth.setTo(0.3f);
   covered.colour.setTo(cv::Scalar(255, 0, 255));
   const FrameReport report = slam.feed(covered);
@@ -147,18 +147,18 @@ TEST_CASE("a frame that shows something else is reported as lost after re-tries,
   CHECK(report.retries == 2);
   CHECK_FALSE(report.keyframe);
   CHECK(slam.trajectory().size() == 4);
-  CHECK_FALSE(slam.feed(*dataset.load(4).frame).lost);
+  CHECK_FALSE(slam.feed(*recording.load(4).frame).lost);
 }
 
 TEST_CASE("frames of the wrong size and a first frame without depth are refused and change nothing") {
-  const SyntheticDataset dataset = office(2);
-  Slam slam(quick_settings(), dataset.intrinsics(), engine_options());
-  Frame blind = *dataset.load(0).frame;
+  const SyntheticRecording recording = office(2);
+  Slam slam(quick_settings(), recording.intrinsics(), engine_options());
+  Frame blind = *recording.load(0).frame;
   blind.depth.setTo(0);
   CHECK_THROWS_AS(slam.feed(blind), InputError);
-  Frame small = resize_frame(*dataset.load(0).frame, 0.5);
+  Frame small = resize_frame(*recording.load(0).frame, 0.5);
   CHECK_THROWS_AS(slam.feed(small), UsageError);
   CHECK(slam.trajectory().empty());
-  slam.feed(*dataset.load(0).frame);
+  slam.feed(*recording.load(0).frame);
   CHECK(slam.trajectory().size() == 1);
 }

@@ -6,7 +6,7 @@
 #include <opencv2/imgcodecs.hpp>
 
 #include "engine/io/files.h"
-#include "engine/sources/dataset.h"
+#include "engine/sources/open_dataset.h"
 #include "tests/support/input_files.h"
 
 using namespace surefield;
@@ -77,13 +77,13 @@ TEST_CASE("TUM: a depth image may serve two colour images, a colour image withou
   const TemporaryFolder folder("own_fr3_test");
   write_tum(folder);
   const auto dataset = open_dataset(folder.path());
-  CHECK(dataset->size() == 2);
-  CHECK(dataset->timestamp(1) == 1.01);
-  REQUIRE(dataset->warnings().size() == 1);
-  CHECK(contains(dataset->warnings().front(), "1 of 3 colour images"));
-  CHECK(dataset->ground_truth() == nullptr);
-  CHECK(dataset->intrinsics().fx == 535.4);
-  const LoadedFrame loaded = dataset->load(0);
+  CHECK(dataset.recording->count() == 2);
+  CHECK(dataset.recording->timestamp(1) == 1.01);
+  REQUIRE(dataset.recording->warnings().size() == 1);
+  CHECK(contains(dataset.recording->warnings().front(), "1 of 3 colour images"));
+  CHECK(!dataset.ground_truth);
+  CHECK(dataset.recording->intrinsics().fx == 535.4);
+  const LoadedFrame loaded = dataset.recording->load(0);
   REQUIRE(loaded.frame);
   CHECK(loaded.frame->colour.at<cv::Vec3b>(0, 0) == cv::Vec3b(200, 100, 10));
   CHECK(loaded.frame->depth.at<float>(479, 639) == 1.0f);
@@ -93,11 +93,11 @@ TEST_CASE("TUM: seconds added to the stamps of depth images change which colour 
   const TemporaryFolder folder("own_fr3_test");
   write_tum(folder);
   const auto later = open_dataset(folder.path(), "auto", -0.02);
-  REQUIRE(later->size() == 2);
-  CHECK(later->timestamp(0) == 1.0);
-  CHECK(later->depth_timestamp(0) == doctest::Approx(0.985));
-  CHECK(later->timestamp(1) == 2.0);
-  CHECK(later->depth_timestamp(1) == doctest::Approx(2.01));
+  REQUIRE(later.recording->count() == 2);
+  CHECK(later.recording->timestamp(0) == 1.0);
+  CHECK(later.recording->depth_timestamp(0) == doctest::Approx(0.985));
+  CHECK(later.recording->timestamp(1) == 2.0);
+  CHECK(later.recording->depth_timestamp(1) == doctest::Approx(2.01));
 }
 
 TEST_CASE("TUM: the camera comes from the folder's name or from cam_params.json") {
@@ -105,10 +105,10 @@ TEST_CASE("TUM: the camera comes from the folder's name or from cam_params.json"
   write_tum(unknown);
   CHECK(contains(open_error(unknown), "camera is unknown"));
   unknown.write("cam_params.json", kCalibration);
-  CHECK(open_dataset(unknown.path())->intrinsics().fy == 11);
+  CHECK(open_dataset(unknown.path()).recording->intrinsics().fy == 11);
   const TemporaryFolder second("rgbd_dataset_freiburg2_desk");
   write_tum(second);
-  CHECK(open_dataset(second.path())->intrinsics().fx == 520.9);
+  CHECK(open_dataset(second.path()).recording->intrinsics().fx == 520.9);
 }
 
 TEST_CASE("TUM: camera.yaml goes before the folder's name, and each of its keys is checked") {
@@ -121,13 +121,13 @@ TEST_CASE("TUM: camera.yaml goes before the folder's name, and each of its keys 
   };
   CHECK(error(text + "depth_unit: 0.001\ndistortion: [0.1, 0, 0, 0, 0]\n").empty());
   const auto dataset = open_dataset(folder.path());
-  CHECK(dataset->intrinsics().fx == 500);
-  CHECK(dataset->intrinsics().fy == 501);
-  CHECK(dataset->intrinsics().width == 640);
-  CHECK(dataset->intrinsics().cy == 239);
-  CHECK(dataset->depth_unit() == 0.001);
-  REQUIRE(dataset->load(0).frame);
-  CHECK(dataset->load(0).frame->depth.at<float>(240, 320) == 5.0f);
+  CHECK(dataset.recording->intrinsics().fx == 500);
+  CHECK(dataset.recording->intrinsics().fy == 501);
+  CHECK(dataset.recording->intrinsics().width == 640);
+  CHECK(dataset.recording->intrinsics().cy == 239);
+  CHECK(dataset.recording->depth_unit() == 0.001);
+  REQUIRE(dataset.recording->load(0).frame);
+  CHECK(dataset.recording->load(0).frame->depth.at<float>(240, 320) == 5.0f);
   CHECK(contains(error(text), "camera.yaml: depth_unit is missing"));
   CHECK(contains(error(text + "depth_unit: 0\n"), "camera.yaml:7: depth_unit must be"));
   CHECK(contains(error(text + "depth_scale: 1000\n"), "camera.yaml:7: unknown key depth_scale"));
@@ -158,8 +158,8 @@ TEST_CASE("missing, damaged and wrong images are problems of one frame") {
   cv::imwrite((folder / "frame-000004.depth.png").string(), cv::Mat(480, 640, CV_8UC1, cv::Scalar(3)));
   cv::imwrite((folder / "frame-000005.color.png").string(), cv::Mat(48, 64, CV_8UC3));
   const auto dataset = open_dataset(folder.path());
-  REQUIRE(dataset->size() == 6);
-  CHECK(dataset->load(0).frame);
+  REQUIRE(dataset.recording->count() == 6);
+  CHECK(dataset.recording->load(0).frame);
   const std::vector<std::string> expected = {
       "",
       "frame-000001.color.png: no such file",
@@ -168,7 +168,7 @@ TEST_CASE("missing, damaged and wrong images are problems of one frame") {
       "frame-000004.depth.png: is no depth image",
       "frame-000005.color.png: is 64 x 48 pixels, the calibration is for 640 x 480"};
   for (int i = 1; i < 6; ++i) {
-    const LoadedFrame loaded = dataset->load(i);
+    const LoadedFrame loaded = dataset.recording->load(i);
     CHECK_FALSE(loaded.frame);
     CHECK_MESSAGE(contains(loaded.problem, expected[static_cast<std::size_t>(i)]), loaded.problem);
   }
@@ -181,10 +181,10 @@ TEST_CASE("7-Scenes: 65535 is invalid, jpg is accepted, a broken pose is named")
   depth(cv::Rect(100, 100, 50, 50)).setTo(65535);
   cv::imwrite((folder / "frame-000003.depth.png").string(), depth);
   const auto dataset = open_dataset(folder.path());
-  CHECK(dataset->size() == 1);
-  CHECK(dataset->timestamp(0) == 3.0);
-  CHECK(dataset->ground_truth() == nullptr);
-  const LoadedFrame loaded = dataset->load(0);
+  CHECK(dataset.recording->count() == 1);
+  CHECK(dataset.recording->timestamp(0) == 3.0);
+  CHECK(!dataset.ground_truth);
+  const LoadedFrame loaded = dataset.recording->load(0);
   REQUIRE(loaded.frame);
   // Registered to the colour camera, depth changes by less than two centimetres; the border is not covered.
   CHECK(loaded.frame->depth.at<float>(0, 0) == 0);
@@ -198,20 +198,20 @@ TEST_CASE("a JPEG that was cut off is damaged, not grey below") {
   const TemporaryFolder folder;
   write_replica(folder, kCalibration);
   const auto dataset = open_dataset(folder.path());
-  CHECK(dataset->load(0).frame);
+  CHECK(dataset.recording->load(0).frame);
   truncate(folder / "results/frame000000.jpg", 0.9);
-  CHECK(contains(dataset->load(0).problem, "frame000000.jpg: is not a readable image"));
+  CHECK(contains(dataset.recording->load(0).problem, "frame000000.jpg: is not a readable image"));
 }
 
 TEST_CASE("Replica: the calibration is found here or in the parent folder; each of its keys is checked") {
   const TemporaryFolder folder;
   write_replica(folder, kCalibration);
-  CHECK(open_dataset(folder.path())->ground_truth()->front().camera_to_world.translation().z() == 7);
+  CHECK(open_dataset(folder.path()).ground_truth->front().camera_to_world.translation().z() == 7);
   std::filesystem::rename(folder / "cam_params.json", folder.path().parent_path() / "cam_params.json");
-  CHECK(open_dataset(folder.path() / "")->intrinsics().fy == 11);
+  CHECK(open_dataset(folder.path() / "").recording->intrinsics().fy == 11);
   write_images(folder, "results/frame000000.png", "results/depth000000.png", {12, 8});
   std::filesystem::remove(folder / "results/frame000000.jpg");
-  CHECK(open_dataset(folder.path())->load(0).frame);
+  CHECK(open_dataset(folder.path()).recording->load(0).frame);
   std::filesystem::remove(folder.path().parent_path() / "cam_params.json");
   CHECK(contains(open_error(folder), "cam_params.json is missing"));
   folder.write("cam_params.json", R"({"camera": {"w": 12, "h": 8, "fx": 10, "fy": 10, "cx": 5, "cy": 3}})");

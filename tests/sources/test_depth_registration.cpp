@@ -3,8 +3,8 @@
 
 #include <cmath>
 
-#include "engine/sources/dataset.h"
 #include "engine/sources/layouts.h"
+#include "engine/sources/open_dataset.h"
 #include "tests/support/input_files.h"
 
 using namespace surefield;
@@ -104,10 +104,10 @@ TEST_CASE("7-Scenes' registered depth has no more pin holes than the sensor's") 
   const auto folder = test::real_clip("sevenscenes_redkitchen");
   if (folder.empty()) return;
   StoredSequence sequence = read_sevenscenes_sequence(folder);
-  const FileDataset registered(sequence);
+  const FileRecording registered(sequence);
   sequence.intrinsics = sequence.registration->depth;
   sequence.registration.reset();
-  const FileDataset stored(sequence);
+  const FileRecording stored(sequence);
   const int before = pin_holes(stored.load(0).frame->depth),
             after = pin_holes(registered.load(0).frame->depth);
   CAPTURE(before);
@@ -119,9 +119,9 @@ TEST_CASE("trajectories of the tracked camera and of the reference camera turn i
   const auto folder = test::real_clip("sevenscenes_redkitchen");
   if (folder.empty()) return;
   const auto dataset = open_dataset(folder);
-  const Trajectory& truth = *dataset->ground_truth();
-  const Trajectory tracked = of_tracked_camera(truth, *dataset);
-  const Trajectory back = of_reference_camera(tracked, *dataset);
+  const Trajectory& truth = *dataset.ground_truth;
+  const Trajectory tracked = of_tracked_camera(truth, *dataset.recording);
+  const Trajectory back = of_reference_camera(tracked, *dataset.recording);
   for (std::size_t i : {std::size_t{0}, truth.size() - 1}) {
     CHECK(back[i].camera_to_world.isApprox(truth[i].camera_to_world, 1e-9));
     // The colour camera sits 2.6 cm beside the depth camera, along the depth camera's +x.

@@ -1,47 +1,17 @@
 #include "engine/sources/frame_stream.h"
 
-#include <atomic>
 #include <new>
-#include <stdexcept>
 
+#include "engine/sources/open_dataset.h"
+#include "tests/sources/fake_recording.h"
 #include "tests/support/input_files.h"
 
 using namespace surefield;
 using test::contains;
+using test::FakeRecording;
 using test::input_error;
 
 namespace {
-
-/// A sequence in memory: frame i is filled with i; some frames fail in different ways.
-class FakeDataset : public Dataset {
- public:
-  explicit FakeDataset(int size) : size_(size) {}
-  std::string name() const override { return "fake"; }
-  std::string format() const override { return "memory"; }
-  int size() const override { return size_; }
-  Intrinsics intrinsics() const override { return {8, 6, 10, 10, 3.5, 2.5}; }
-  double depth_unit() const override { return 0.001; }
-  double timestamp(int i) const override { return i; }
-  const Trajectory* ground_truth() const override { return nullptr; }
-
-  LoadedFrame load(int i) const override {
-    ++loads;
-    if (i == missing) return {std::nullopt, "file is missing"};
-    if (i == throwing) throw std::runtime_error("decoder failed");
-    if (i == out_of_memory) throw std::bad_alloc();
-    Frame frame{i, timestamp(i), cv::Mat(6, 8, CV_8UC3, cv::Scalar::all(i)),
-                cv::Mat(6, 8, CV_32FC1, cv::Scalar(i))};
-    return {frame, ""};
-  }
-
-  int missing = -1;
-  int throwing = -1;
-  int out_of_memory = -1;
-  mutable std::atomic<int> loads = 0;
-
- private:
-  int size_;
-};
 
 FrameSelection select(int start, int stride, int frames) {
   FrameSelection selection;
@@ -63,62 +33,62 @@ std::vector<int> indices(FrameStream& stream) {
 }  // namespace
 
 TEST_CASE("start, stride and frames select, in order") {
-  const FakeDataset dataset(10);
-  FrameStream all(dataset, {});
+  const FakeRecording recording(10);
+  FrameStream all(recording, {});
   CHECK(all.size() == 10);
   CHECK(indices(all) == std::vector<int>{0, 1, 2, 3, 4, 5, 6, 7, 8, 9});
   CHECK_FALSE(all.next());
-  FrameStream some(dataset, select(1, 3, 0));
+  FrameStream some(recording, select(1, 3, 0));
   CHECK(some.size() == 3);
   CHECK(indices(some) == std::vector<int>{1, 4, 7});
-  FrameStream few(dataset, select(2, 2, 2));
+  FrameStream few(recording, select(2, 2, 2));
   CHECK(indices(few) == std::vector<int>{2, 4});
-  FrameStream more_than_there_are(dataset, select(8, 1, 100));
+  FrameStream more_than_there_are(recording, select(8, 1, 100));
   CHECK(indices(more_than_there_are) == std::vector<int>{8, 9});
 }
 
 TEST_CASE("bad frames are skipped, counted and named; exceptions do not stop the stream") {
-  FakeDataset dataset(6);
-  dataset.missing = 1;
-  dataset.throwing = 4;
-  FrameStream stream(dataset, {});
+  FakeRecording recording(6);
+  recording.missing = 1;
+  recording.throwing = 4;
+  FrameStream stream(recording, {});
   CHECK(stream.next()->index == 0);
-  CHECK(stream.skipped().empty());
+  CHECK(stream.problems().empty());
   CHECK(stream.next()->index == 2);
-  REQUIRE(stream.skipped().size() == 1);
+  REQUIRE(stream.problems().size() == 1);
   CHECK(indices(stream) == std::vector<int>{3, 5});
-  REQUIRE(stream.skipped().size() == 2);
-  CHECK(stream.skipped()[0].index == 1);
-  CHECK(stream.skipped()[0].reason == "file is missing");
-  CHECK(stream.skipped()[1].index == 4);
-  CHECK(stream.skipped()[1].reason == "decoder failed");
+  REQUIRE(stream.problems().size() == 2);
+  CHECK(stream.problems()[0].index == 1);
+  CHECK(stream.problems()[0].reason == "file is missing");
+  CHECK(stream.problems()[1].index == 4);
+  CHECK(stream.problems()[1].reason == "decoder failed");
 }
 
 TEST_CASE("lack of memory reaches the consumer after the frames before it") {
-  FakeDataset dataset(6);
-  dataset.out_of_memory = 2;
-  FrameStream stream(dataset, {});
+  FakeRecording recording(6);
+  recording.out_of_memory = 2;
+  FrameStream stream(recording, {});
   CHECK(stream.next()->index == 0);
   CHECK(stream.next()->index == 1);
   CHECK_THROWS_AS(stream.next(), std::bad_alloc);
 }
 
 TEST_CASE("decoding runs ahead by a few frames only and stops when the stream goes away") {
-  const FakeDataset dataset(1000);
+  const FakeRecording recording(1000);
   {
     FrameSelection selection;
     selection.ahead = 3;
-    FrameStream stream(dataset, selection);
+    FrameStream stream(recording, selection);
     CHECK(stream.next()->index == 0);
   }
-  CHECK(dataset.loads <= 1 + 3 + 1);
-  for (int i = 0; i < 100; ++i) FrameStream(dataset, {});
+  CHECK(recording.loads <= 1 + 3 + 1);
+  for (int i = 0; i < 100; ++i) FrameStream(recording, {});
 }
 
 TEST_CASE("a selection out of range is refused") {
-  const FakeDataset dataset(10);
+  const FakeRecording recording(10);
   const auto error = [&](const FrameSelection& selection) {
-    return input_error([&] { FrameStream(dataset, selection); });
+    return input_error([&] { FrameStream(recording, selection); });
   };
   CHECK(contains(error(select(10, 1, 0)), "start is 10, but the frames of fake are 0 to 9"));
   CHECK(contains(error(select(-1, 1, 0)), "start is -1"));
@@ -210,7 +180,7 @@ TEST_CASE("a real clip streams at half size with matching intrinsics") {
   const auto dataset = open_dataset(folder);
   FrameSelection selection = select(10, 5, 4);
   selection.scale = 0.5;
-  FrameStream stream(*dataset, selection);
+  FrameStream stream(*dataset.recording, selection);
   CHECK(stream.intrinsics().width == 320);
   CHECK(stream.intrinsics().cx == 0.5 * (318.6 + 0.5) - 0.5);
   int count = 0;
@@ -220,5 +190,5 @@ TEST_CASE("a real clip streams at half size with matching intrinsics") {
     CHECK(frame->depth.size() == cv::Size(320, 240));
   }
   CHECK(count == 4);
-  CHECK(stream.skipped().empty());
+  CHECK(stream.problems().empty());
 }

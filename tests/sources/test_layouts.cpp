@@ -5,7 +5,7 @@
 #include <opencv2/core.hpp>
 #include <opencv2/imgcodecs.hpp>
 
-#include "engine/sources/dataset.h"
+#include "engine/sources/open_dataset.h"
 #include "tests/support/input_files.h"
 
 using namespace surefield;
@@ -66,21 +66,21 @@ TEST_CASE("ScanNet: numeric order, colour averaged down to the depth, unknown po
   folder.write("pose/9.txt",
                "-inf -inf -inf -inf\n-inf -inf -inf -inf\n-inf -inf -inf -inf\n-inf -inf -inf -inf");
   const auto dataset = open_dataset(folder.path());
-  CHECK(dataset->format() == "scannet");
-  CHECK(dataset->name() == "scene0000_00");
-  REQUIRE(dataset->size() == 3);
-  CHECK(dataset->timestamp(1) == 9);
-  CHECK(dataset->timestamp(2) == 10);
-  CHECK(dataset->intrinsics().width == 40);
-  CHECK(dataset->intrinsics().fx == 36);
-  CHECK(dataset->intrinsics().fy == 37);
-  CHECK(dataset->intrinsics().cx == 19.5);
-  CHECK(dataset->intrinsics().cy == 14.5);
-  REQUIRE(dataset->ground_truth());
-  CHECK(dataset->ground_truth()->size() == 3);
-  CHECK_FALSE(dataset->ground_truth()->at(1).is_finite());
-  CHECK(dataset->ground_truth()->at(2).is_finite());
-  const LoadedFrame loaded = dataset->load(1);
+  CHECK(dataset.recording->format() == "scannet");
+  CHECK(dataset.recording->name() == "scene0000_00");
+  REQUIRE(dataset.recording->count() == 3);
+  CHECK(dataset.recording->timestamp(1) == 9);
+  CHECK(dataset.recording->timestamp(2) == 10);
+  CHECK(dataset.recording->intrinsics().width == 40);
+  CHECK(dataset.recording->intrinsics().fx == 36);
+  CHECK(dataset.recording->intrinsics().fy == 37);
+  CHECK(dataset.recording->intrinsics().cx == 19.5);
+  CHECK(dataset.recording->intrinsics().cy == 14.5);
+  REQUIRE(dataset.ground_truth);
+  CHECK(dataset.ground_truth->size() == 3);
+  CHECK_FALSE(dataset.ground_truth->at(1).is_finite());
+  CHECK(dataset.ground_truth->at(2).is_finite());
+  const LoadedFrame loaded = dataset.recording->load(1);
   REQUIRE_MESSAGE(loaded.frame, loaded.problem);
   CHECK(loaded.frame->colour.size() == cv::Size(40, 30));
   CHECK(loaded.frame->colour.at<cv::Vec3b>(15, 10)[0] > 190);
@@ -94,9 +94,9 @@ TEST_CASE("ScanNet: what is missing or broken is named") {
   std::filesystem::remove(folder / "color/9.jpg");
   std::filesystem::remove(folder / "depth/10.png");
   const auto dataset = open_dataset(folder.path());
-  REQUIRE(dataset->size() == 3);
-  CHECK(contains(dataset->load(1).problem, "9.jpg: no such file"));
-  CHECK(contains(dataset->load(2).problem, "10.png: no such file"));
+  REQUIRE(dataset.recording->count() == 3);
+  CHECK(contains(dataset.recording->load(1).problem, "9.jpg: no such file"));
+  CHECK(contains(dataset.recording->load(2).problem, "10.png: no such file"));
   folder.write("pose/2.txt", "1 2 3");
   CHECK(contains(open_error(folder), "2.txt: expected a rigid 4 x 4"));
   folder.write("intrinsic/intrinsic_depth.txt", "1 2 3");
@@ -122,14 +122,14 @@ TEST_CASE("ICL-NUIM: a point lands where the renderer with fy = -480 puts it") {
   folder.write("associations.txt", "2 depth/2.png 2 rgb/2.png\n1 depth/1.png 1 rgb/1.png\n");
   folder.write("livingRoom0.gt.freiburg", truth);
   const auto dataset = open_dataset(folder.path());
-  CHECK(dataset->format() == "icl");
-  REQUIRE(dataset->size() == 2);
-  const Intrinsics k = dataset->intrinsics();
+  CHECK(dataset.recording->format() == "icl");
+  REQUIRE(dataset.recording->count() == 2);
+  const Intrinsics k = dataset.recording->intrinsics();
   CHECK(k.fy == 480);
-  const LoadedFrame loaded = dataset->load(0);
+  const LoadedFrame loaded = dataset.recording->load(0);
   REQUIRE_MESSAGE(loaded.frame, loaded.problem);
-  REQUIRE(dataset->ground_truth()->size() == 2);
-  const auto& poses = *dataset->ground_truth();
+  REQUIRE(dataset.ground_truth->size() == 2);
+  const auto& poses = *dataset.ground_truth;
   for (const cv::Point pixel : {cv::Point(100, 60), cv::Point(500, 400), cv::Point(320, 100)}) {
     const double z = loaded.frame->depth.at<float>(pixel);
     CHECK(z == doctest::Approx(2));
@@ -166,19 +166,19 @@ TEST_CASE("plain: images are paired by their names, in the order of the names") 
   write_colour(folder, "colour/c.png");
   folder.write("poses.txt", "0 0 0 0 0 0 0 1\n1 0.5 0 0 0 0 0 1\n");
   const auto dataset = open_dataset(folder.path());
-  CHECK(dataset->format() == "plain");
-  CHECK(dataset->name() == "kitchen");
-  REQUIRE(dataset->size() == 2);
-  CHECK(dataset->timestamp(1) == 1);
-  CHECK(dataset->depth_unit() == 0.002);
-  CHECK(dataset->intrinsics().width == 40);
-  CHECK(dataset->intrinsics().height == 30);
-  CHECK(dataset->intrinsics().fy == 31);
-  CHECK(dataset->load(0).frame->depth.at<float>(0, 0) == doctest::Approx(1.0));
-  CHECK(dataset->load(1).frame->depth.at<float>(0, 0) == doctest::Approx(1.2));
-  CHECK(dataset->ground_truth()->at(1).camera_to_world.translation().x() == 0.5);
-  REQUIRE(dataset->warnings().size() == 1);
-  CHECK(contains(dataset->warnings().front(), "1 colour or depth images have no partner"));
+  CHECK(dataset.recording->format() == "plain");
+  CHECK(dataset.recording->name() == "kitchen");
+  REQUIRE(dataset.recording->count() == 2);
+  CHECK(dataset.recording->timestamp(1) == 1);
+  CHECK(dataset.recording->depth_unit() == 0.002);
+  CHECK(dataset.recording->intrinsics().width == 40);
+  CHECK(dataset.recording->intrinsics().height == 30);
+  CHECK(dataset.recording->intrinsics().fy == 31);
+  CHECK(dataset.recording->load(0).frame->depth.at<float>(0, 0) == doctest::Approx(1.0));
+  CHECK(dataset.recording->load(1).frame->depth.at<float>(0, 0) == doctest::Approx(1.2));
+  CHECK(dataset.ground_truth->at(1).camera_to_world.translation().x() == 0.5);
+  REQUIRE(dataset.recording->warnings().size() == 1);
+  CHECK(contains(dataset.recording->warnings().front(), "1 colour or depth images have no partner"));
 }
 
 TEST_CASE("plain: timestamps.txt gives stamps and pairs, color/ is accepted") {
@@ -187,10 +187,10 @@ TEST_CASE("plain: timestamps.txt gives stamps and pairs, color/ is accepted") {
   std::filesystem::rename(folder / "colour", folder / "color");
   folder.write("timestamps.txt", "# seconds colour depth\n10.5 b.jpg a.png\n10.6 a.jpg b.png\n");
   const auto dataset = open_dataset(folder.path());
-  REQUIRE(dataset->size() == 2);
-  CHECK(dataset->timestamp(0) == 10.5);
-  CHECK(dataset->load(0).frame->depth.at<float>(0, 0) == doctest::Approx(1.0));
-  CHECK(dataset->ground_truth() == nullptr);
+  REQUIRE(dataset.recording->count() == 2);
+  CHECK(dataset.recording->timestamp(0) == 10.5);
+  CHECK(dataset.recording->load(0).frame->depth.at<float>(0, 0) == doctest::Approx(1.0));
+  CHECK(!dataset.ground_truth);
   folder.write("timestamps.txt", "10.5 b.jpg a.png\n10.5 a.jpg b.png\n");
   CHECK(contains(open_error(folder), "timestamps.txt:2: is not later"));
   folder.write("timestamps.txt", "10.5 b.jpg\n");
@@ -201,7 +201,7 @@ TEST_CASE("plain: what is missing or wrong is named") {
   const TemporaryFolder folder;
   write_plain(folder);
   folder.write("camera.yaml", "width: 20\nheight: 30\n" + kCamera);
-  CHECK(contains(open_dataset(folder.path())->load(0).problem,
+  CHECK(contains(open_dataset(folder.path()).recording->load(0).problem,
                  "is 40 x 30 pixels, the calibration is for 20 x 30"));
   std::filesystem::remove(folder / "camera.yaml");
   CHECK(contains(open_error(folder), "camera.yaml is missing"));
@@ -220,6 +220,6 @@ TEST_CASE("a folder that fits two layouts is not guessed at") {
   const std::string message = open_error(folder);
   CHECK(contains(message, "could be of two layouts, tum (rgb.txt and depth.txt) and plain"));
   CHECK(contains(message, "--format"));
-  CHECK(open_dataset(folder.path(), "plain")->size() == 2);
-  CHECK(open_dataset(folder.path(), "tum")->size() == 1);
+  CHECK(open_dataset(folder.path(), "plain").recording->count() == 2);
+  CHECK(open_dataset(folder.path(), "tum").recording->count() == 1);
 }

@@ -5,7 +5,7 @@
 #include <limits>
 #include <opencv2/imgcodecs.hpp>
 
-#include "engine/sources/dataset.h"
+#include "engine/sources/open_dataset.h"
 #include "tests/support/input_files.h"
 
 using namespace surefield;
@@ -97,18 +97,18 @@ TEST_CASE("a .sens file is read, itself or by its folder, in every way of storin
       const TemporaryFolder folder;
       const auto file = folder.write("scene0000_00.sens", sens({.colour = colour, .depth = depth}));
       const auto dataset = open_dataset(colour == 2 ? file : folder.path());
-      CHECK(dataset->format() == "scannet");
-      CHECK(dataset->name() == "scene0000_00");
-      CHECK(dataset->warnings().empty());
-      CHECK(dataset->depth_unit() == doctest::Approx(0.001));
-      REQUIRE(dataset->size() == 3);
-      CHECK(dataset->intrinsics().width == 40);
-      CHECK(dataset->intrinsics().height == 30);
-      CHECK(dataset->intrinsics().fx == 36);
-      CHECK(dataset->intrinsics().cy == 14.5);
-      CHECK_FALSE(dataset->ground_truth()->at(1).is_finite());
-      CHECK(dataset->ground_truth()->at(2).camera_to_world.translation().x() == 2);
-      const LoadedFrame loaded = dataset->load(2);
+      CHECK(dataset.recording->format() == "scannet");
+      CHECK(dataset.recording->name() == "scene0000_00");
+      CHECK(dataset.recording->warnings().empty());
+      CHECK(dataset.recording->depth_unit() == doctest::Approx(0.001));
+      REQUIRE(dataset.recording->count() == 3);
+      CHECK(dataset.recording->intrinsics().width == 40);
+      CHECK(dataset.recording->intrinsics().height == 30);
+      CHECK(dataset.recording->intrinsics().fx == 36);
+      CHECK(dataset.recording->intrinsics().cy == 14.5);
+      CHECK_FALSE(dataset.ground_truth->at(1).is_finite());
+      CHECK(dataset.ground_truth->at(2).camera_to_world.translation().x() == 2);
+      const LoadedFrame loaded = dataset.recording->load(2);
       REQUIRE_MESSAGE(loaded.frame, loaded.problem);
       CHECK(loaded.frame->timestamp == 2);
       CHECK(loaded.frame->colour.size() == cv::Size(40, 30));
@@ -136,13 +136,13 @@ TEST_CASE("a .sens file that was cut off gives its complete frames, a damaged fr
   const TemporaryFolder folder;
   std::string bytes = sens({});
   const auto cut = open_dataset(folder.write("cut.sens", bytes.substr(0, bytes.size() - 5)));
-  CHECK(cut->size() == 2);
-  REQUIRE(cut->warnings().size() == 1);
-  CHECK(contains(cut->warnings().front(), "ends after 2 of 3 frames"));
-  CHECK(cut->load(1).frame);
+  CHECK(cut.recording->count() == 2);
+  REQUIRE(cut.recording->warnings().size() == 1);
+  CHECK(contains(cut.recording->warnings().front(), "ends after 2 of 3 frames"));
+  CHECK(cut.recording->load(1).frame);
   for (std::size_t i = bytes.size() - 8; i < bytes.size(); ++i) bytes[i] = '\0';
   const auto damaged = open_dataset(folder.write("damaged.sens", bytes));
-  REQUIRE(damaged->size() == 3);
-  CHECK(damaged->load(1).frame);
-  CHECK(contains(damaged->load(2).problem, "(frame 2): the depth image is damaged"));
+  REQUIRE(damaged.recording->count() == 3);
+  CHECK(damaged.recording->load(1).frame);
+  CHECK(contains(damaged.recording->load(2).problem, "(frame 2): the depth image is damaged"));
 }

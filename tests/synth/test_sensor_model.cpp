@@ -5,7 +5,7 @@
 #include <cmath>
 #include <vector>
 
-#include "engine/synth/synthetic_dataset.h"
+#include "engine/synth/synthetic_recording.h"
 #include "tests/support/device.h"
 
 using namespace surefield;
@@ -127,9 +127,9 @@ TEST_CASE("exposure drifts within its bounds") {
 
 TEST_CASE("a fast camera blurs what a perfect one shows sharp, and its depth has holes and noise") {
   SynthSettings settings{.path = "fast", .width = 160, .height = 120, .frames = 20};
-  const SyntheticDataset perfect(testing::device_options(), settings);
+  const SyntheticRecording perfect(testing::device_options(), settings);
   settings.sensor = SensorKind::Kinect;
-  const SyntheticDataset kinect(testing::device_options(), settings);
+  const SyntheticRecording kinect(testing::device_options(), settings);
   const Frame sharp = perfect.load(10).frame.value(), blurred = kinect.load(10).frame.value();
   const int missing = 160 * 120 - cv::countNonZero(blurred.depth);
   CHECK(missing > 100);

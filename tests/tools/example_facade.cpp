@@ -8,16 +8,16 @@
 #include "engine/io/trajectory_file.h"
 #include "engine/slam/slam.h"
 #include "engine/sources/frame_stream.h"
-#include "engine/synth/synthetic_dataset.h"
+#include "engine/synth/synthetic_recording.h"
 
 int main() {
   using namespace surefield;
   try {
     EngineOptions engine;
     if (const char* device = std::getenv("SUREFIELD_DEVICE")) engine.device = device;
-    // Any dataset does: open_dataset("path/of/a/sequence") recognises the layout of the common ones.
-    const SyntheticDataset dataset({.selector = engine.device}, {.width = 64, .height = 48, .frames = 3});
-    FrameStream stream(dataset, {});
+    // Any source does: open_dataset("path/of/a/sequence") recognises the layout of the common recordings.
+    const SyntheticRecording recording({.selector = engine.device}, {.width = 64, .height = 48, .frames = 3});
+    FrameStream stream(recording, {});
 
     // Few steps, so that this example takes a moment only; the defaults suit real sequences.
     SlamSettings settings;

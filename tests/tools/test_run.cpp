@@ -9,7 +9,7 @@
 #include "engine/io/images.h"
 #include "engine/io/trajectory_file.h"
 #include "engine/slam/settings.h"
-#include "engine/synth/synthetic_dataset.h"
+#include "engine/synth/synthetic_recording.h"
 #include "engine/types/trajectory.h"
 #include "tests/support/device.h"
 #include "tests/tools/support.h"
@@ -27,14 +27,15 @@ std::set<std::string> keys(const nlohmann::json& object) {
 
 /// Writes the first frames of a small synthetic sequence in the layout of Replica.
 void write_replica(const TemporaryFolder& folder, int frames) {
-  const SyntheticDataset dataset(testing::device_options(), {.width = 64, .height = 48, .frames = frames});
-  const Intrinsics k = dataset.intrinsics();
+  const SyntheticRecording recording(testing::device_options(),
+                                     {.width = 64, .height = 48, .frames = frames});
+  const Intrinsics k = recording.intrinsics();
   const nlohmann::json camera = {{"w", k.width}, {"h", k.height}, {"fx", k.fx},     {"fy", k.fy},
                                  {"cx", k.cx},   {"cy", k.cy},    {"scale", 6553.5}};
   folder.write("cam_params.json", nlohmann::json{{"camera", camera}}.dump());
   std::filesystem::create_directories(folder / "results");
   for (int i = 0; i < frames; ++i) {
-    const Frame frame = dataset.load(i).frame.value();
+    const Frame frame = recording.load(i).frame.value();
     cv::Mat depth;
     frame.depth.convertTo(depth, CV_16UC1, 6553.5);
     const std::string number = "00000" + std::to_string(i);

@@ -1,7 +1,7 @@
 #include <fstream>
 
 #include "engine/formats/triangle_mesh.h"
-#include "engine/sources/dataset.h"
+#include "engine/sources/open_dataset.h"
 #include "tests/tools/support.h"
 
 using namespace surefield;
@@ -27,10 +27,10 @@ TEST_CASE("synth writes both layouts with poses and the true mesh, and the reade
     const Outcome outcome = synth_command(folder, layout, {"--layout", layout, "--sensor", "kinect"});
     REQUIRE_MESSAGE(outcome.code == 0, outcome.err);
     const auto dataset = open_dataset(folder / layout);
-    CHECK(dataset->format() == layout);
-    CHECK(dataset->size() == 2);
-    REQUIRE(dataset->ground_truth() != nullptr);
-    CHECK(dataset->load(1).frame.has_value());
+    CHECK(dataset.recording->format() == layout);
+    CHECK(dataset.recording->count() == 2);
+    REQUIRE(dataset.ground_truth);
+    CHECK(dataset.recording->load(1).frame.has_value());
     CHECK(read_mesh(folder / (layout + "/mesh.ply")).triangles.size() > 1000);
   }
 }

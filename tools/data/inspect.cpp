@@ -8,6 +8,7 @@
 #include "engine/eval/dataset_check.h"
 #include "engine/eval/dataset_survey.h"
 #include "engine/io/files.h"
+#include "engine/sources/open_dataset.h"
 #include "tools/shared/command.h"
 #include "tools/shared/interrupt.h"
 #include "tools/shared/progress_line.h"
@@ -94,10 +95,10 @@ std::string stamps_text(const StampSurvey& stamps) {
   return text;
 }
 
-std::string survey_text(const Dataset& dataset, const DatasetSurvey& survey) {
-  const Intrinsics k = dataset.intrinsics();
-  std::string text = fmt::format("dataset          {}, format {}\n", dataset.name(), dataset.format());
-  text += fmt::format("frames           {}, {} x {}\n", dataset.size(), k.width, k.height);
+std::string survey_text(const Recording& recording, const DatasetSurvey& survey) {
+  const Intrinsics k = recording.intrinsics();
+  std::string text = fmt::format("dataset          {}, format {}\n", recording.name(), recording.format());
+  text += fmt::format("frames           {}, {} x {}\n", recording.count(), k.width, k.height);
   for (std::size_t i = 0; i < survey.unreadable.size() && i < kNamedFrames; ++i) {
     text += fmt::format("unreadable       frame {}: {}\n", survey.unreadable[i].index,
                         survey.unreadable[i].reason);
@@ -115,8 +116,8 @@ std::string survey_text(const Dataset& dataset, const DatasetSurvey& survey) {
   } else {
     text += "depth            none\n";
   }
-  text += fmt::format("poses            known for {} of {} frames\n", survey.posed, dataset.size());
-  for (const std::string& warning : dataset.warnings()) text += "note             " + warning + "\n";
+  text += fmt::format("poses            known for {} of {} frames\n", survey.posed, recording.count());
+  for (const std::string& warning : recording.warnings()) text += "note             " + warning + "\n";
   return text;
 }
 
@@ -140,17 +141,17 @@ std::string check_text(const DatasetCheck& check, const std::vector<std::string>
   return text;
 }
 
-Json survey_json(const Dataset& dataset, const DatasetSurvey& survey) {
-  const Intrinsics k = dataset.intrinsics();
+Json survey_json(const Recording& recording, const DatasetSurvey& survey) {
+  const Intrinsics k = recording.intrinsics();
   Json json = {{"schema", "surefield-inspection"},
                {"version", 1},
-               {"name", dataset.name()},
-               {"format", dataset.format()},
-               {"frames", dataset.size()},
+               {"name", recording.name()},
+               {"format", recording.format()},
+               {"frames", recording.count()},
                {"width", k.width},
                {"height", k.height},
                {"intrinsics", {{"fx", k.fx}, {"fy", k.fy}, {"cx", k.cx}, {"cy", k.cy}}},
-               {"depth_unit_m", dataset.depth_unit()},
+               {"depth_unit_m", recording.depth_unit()},
                {"posed_frames", survey.posed}};
   const StampSurvey& stamps = survey.stamps;
   json["stamps"] = {{"are_indices", stamps.indices},  {"spacing", stamps.spacing},
@@ -186,23 +187,26 @@ Json check_json(const DatasetCheck& check) {
 }
 
 DatasetSurvey survey_with_progress(const Dataset& dataset) {
+  const Recording& recording = *dataset.recording;
   ProgressLine progress("reading");
-  return survey_dataset(dataset, [&](int done) {
-    progress.show(static_cast<double>(done) / dataset.size(), fmt::format("{}/{}", done, dataset.size()));
+  return survey_dataset(recording, dataset.truth(), [&](int done) {
+    progress.show(static_cast<double>(done) / recording.count(),
+                  fmt::format("{}/{}", done, recording.count()));
     return !interrupted();
   });
 }
 
 int inspect(const InspectOptions& options) {
   catch_interrupts();
-  const auto dataset = open_dataset(options.dataset, options.format);
-  const DatasetSurvey survey = survey_with_progress(*dataset);
-  fmt::print("{}", survey_text(*dataset, survey));
+  const Dataset dataset = open_dataset(options.dataset, options.format);
+  const Recording& recording = *dataset.recording;
+  const DatasetSurvey survey = survey_with_progress(dataset);
+  fmt::print("{}", survey_text(recording, survey));
   std::fflush(stdout);
-  Json json = survey_json(*dataset, survey);
+  Json json = survey_json(recording, survey);
   if (!interrupted()) {
-    const DatasetCheck check = check_dataset(*dataset, interrupted);
-    const std::vector<std::string> findings = check_findings(check, *dataset);
+    const DatasetCheck check = check_dataset(recording, dataset.truth(), interrupted);
+    const std::vector<std::string> findings = check_findings(check, recording);
     if (!interrupted()) fmt::print("{}", check_text(check, findings));
     json["check"] = check_json(check);
     json["findings"] = findings;

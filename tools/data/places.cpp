@@ -11,6 +11,7 @@
 #include "engine/eval/warp_check.h"
 #include "engine/slam/covisibility.h"
 #include "engine/sources/frame_stream.h"
+#include "engine/sources/open_dataset.h"
 #include "engine/types/error.h"
 #include "tools/shared/command.h"
 #include "tools/shared/interrupt.h"
@@ -117,16 +118,17 @@ void Places::add(const Frame& frame, const Camera& camera) {
 
 /// Reads the sequence; ends early when the user stops it.
 void read_keyframes(const PlacesOptions& options, Places& places) {
-  const auto dataset = open_dataset(options.dataset);
-  if (!dataset->ground_truth())
+  const Dataset dataset = open_dataset(options.dataset);
+  const Recording& recording = *dataset.recording;
+  if (!dataset.ground_truth)
     throw InputError(options.dataset, "has no true poses, without which nobody knows what frames share");
-  const PoseTrack track(of_tracked_camera(*dataset->ground_truth(), *dataset));
-  FrameStream stream(*dataset, {.stride = options.every, .scale = options.scale});
-  CountProgress progress("keyframes", stream.size());
+  const PoseTrack track(of_tracked_camera(*dataset.ground_truth, recording));
+  FrameStream stream(recording, {.stride = options.every, .scale = options.scale});
+  CountProgress progress("keyframes", *stream.size());
   for (int done = 1; !interrupted(); ++done) {
     const auto frame = stream.next();
     if (!frame) break;
-    const auto pose = track.at(dataset->timestamp(frame->index));
+    const auto pose = track.at(frame->timestamp);
     if (pose) places.add(*frame, {stream.intrinsics(), pose->inverse()});
     progress.reached(done);
   }

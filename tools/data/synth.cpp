@@ -59,13 +59,13 @@ int synthesise(SynthOptions& options) {
   parse_size(options.size, options.settings);
   gpu::DeviceOptions device;
   device.selector = options.device;
-  const SyntheticDataset dataset(device, options.settings);
-  SequenceWriter writer(options.out, options.layout, dataset);
+  const SyntheticRecording recording(device, options.settings);
+  SequenceWriter writer(options.out, options.layout, recording);
   {
     std::optional<CountProgress> progress;
-    if (!options.quiet) progress.emplace("frames", dataset.size());
+    if (!options.quiet) progress.emplace("frames", recording.count());
     try {
-      for (int i = 0; i < dataset.size() && !interrupted(); ++i) {
+      for (int i = 0; i < recording.count() && !interrupted(); ++i) {
         writer.write(i);
         if (progress) progress->reached(i + 1);
       }

@@ -7,6 +7,7 @@
 #include "engine/io/files.h"
 #include "engine/places/vocabulary.h"
 #include "engine/sources/frame_stream.h"
+#include "engine/sources/open_dataset.h"
 #include "tools/shared/command.h"
 #include "tools/shared/interrupt.h"
 #include "tools/shared/progress.h"
@@ -40,9 +41,9 @@ struct VocabularyOptions {
 
 /// The features of every so many frames; those so far when the user stops it.
 LocalFeatures collect_features(const std::string& folder, int every) {
-  const auto dataset = open_dataset(folder);
-  FrameStream stream(*dataset, {.stride = every});
-  CountProgress progress("frames of " + dataset->name(), stream.size());
+  const Dataset dataset = open_dataset(folder);
+  FrameStream stream(*dataset.recording, {.stride = every});
+  CountProgress progress("frames of " + stream.name(), *stream.size());
   LocalFeatures features(0, kFeatureSize);
   for (int done = 1; !interrupted(); ++done) {
     const auto frame = stream.next();

@@ -6,7 +6,7 @@
 
 #include "engine/io/files.h"
 #include "engine/io/trajectory_file.h"
-#include "engine/sources/dataset.h"
+#include "engine/sources/open_dataset.h"
 #include "engine/types/error.h"
 #include "tools/eval/eval_mesh.h"
 #include "tools/eval/eval_run.h"
@@ -48,9 +48,9 @@ struct EvalOptions {
 
 Trajectory read_ground_truth(const std::string& path) {
   if (!std::filesystem::is_directory(path)) return read_trajectory(path);
-  const auto dataset = open_dataset(path);
-  if (!dataset->ground_truth()) throw InputError(path, "this dataset has no ground truth");
-  return *dataset->ground_truth();
+  Dataset dataset = open_dataset(path);
+  if (!dataset.ground_truth) throw InputError(path, "this dataset has no ground truth");
+  return *std::move(dataset.ground_truth);
 }
 
 int compare_trajectories(const EvalOptions& options) {

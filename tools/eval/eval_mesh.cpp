@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
 
@@ -28,7 +27,7 @@ constexpr double kWidth = 320;  // pixels, at most, of the images that decide wh
 /// The dataset whose cameras cull, and the run's poses, as far as they are given.
 struct Surroundings {
   std::optional<RunFolder> run;
-  std::unique_ptr<Dataset> dataset;
+  std::optional<Dataset> dataset;
 };
 
 Surroundings open_surroundings(const EvalMeshOptions& options) {
@@ -39,8 +38,8 @@ Surroundings open_surroundings(const EvalMeshOptions& options) {
   } else if (!options.dataset.empty()) {
     result.dataset = open_dataset(options.dataset);
   }
-  if (result.dataset && !result.dataset->ground_truth()) {
-    throw InputError("the dataset " + result.dataset->name() +
+  if (result.dataset && !result.dataset->ground_truth) {
+    throw InputError("the dataset " + result.dataset->recording->name() +
                      " has no true poses; neither culling nor a run's frame is known without");
   }
   return result;
@@ -48,10 +47,10 @@ Surroundings open_surroundings(const EvalMeshOptions& options) {
 
 /// The dataset's true cameras, evenly picked.
 std::vector<Camera> true_cameras(const Dataset& dataset) {
-  const Intrinsics original = dataset.intrinsics();
+  const Intrinsics original = dataset.recording->intrinsics();
   const Intrinsics intrinsics = original.scaled(std::min(1.0, kWidth / original.width));
   Trajectory poses;
-  for (const StampedPose& pose : of_tracked_camera(*dataset.ground_truth(), dataset)) {
+  for (const StampedPose& pose : of_tracked_camera(*dataset.ground_truth, *dataset.recording)) {
     if (pose.is_finite()) poses.push_back(pose);
   }
   const std::size_t count = std::min(kMostCameras, poses.size());
@@ -69,7 +68,7 @@ MeshComparison comparison_for(const Surroundings& surroundings) {
   comparison.cameras = true_cameras(*surroundings.dataset);
   if (surroundings.run) {
     comparison.start =
-        align_poses(associate(surroundings.run->trajectory, *surroundings.dataset->ground_truth()));
+        align_poses(associate(surroundings.run->trajectory, *surroundings.dataset->ground_truth));
   }
   return comparison;
 }

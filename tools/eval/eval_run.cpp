@@ -22,9 +22,9 @@ struct TrajectoryErrors {
 
 TrajectoryErrors measure_trajectory(const RunFolder& run, const Dataset& dataset) {
   const auto measure = [&](const Trajectory& estimate) -> std::optional<TrajectoryMetrics> {
-    if (!dataset.ground_truth()) return std::nullopt;
+    if (!dataset.ground_truth) return std::nullopt;
     try {
-      return evaluate_trajectory(estimate, *dataset.ground_truth());
+      return evaluate_trajectory(estimate, *dataset.ground_truth);
     } catch (const InputError&) {
       return std::nullopt;  // too few poses to compare
     }
@@ -33,14 +33,13 @@ TrajectoryErrors measure_trajectory(const RunFolder& run, const Dataset& dataset
 }
 
 std::optional<MapQuality> measure_images(const EvalRunOptions& options, const RunFolder& run,
-                                         const Dataset& dataset) {
+                                         const Recording& recording) {
   std::optional<Lpips> lpips;
   if (!options.lpips.empty()) lpips.emplace(options.lpips);
   SplatEngine engine(options.engine);
   assign_map(engine, run);
-  QualityInput input{.dataset = dataset,
-                     .views = views_of(run, dataset),
-                     .scale = run.number("/dataset/scale"),
+  QualityInput input{.frame = frames_of(recording, run.number("/dataset/scale")),
+                     .views = views_of(run, recording),
                      .depth_max = run.number("/dataset/depth_max_m"),
                      .render = [&](const Camera& camera) { return engine.render(camera); }};
   if (lpips) input.lpips = &*lpips;
@@ -80,9 +79,9 @@ std::string cost_lines(const RunFolder& run) {
 int evaluate_run(const EvalRunOptions& options) {
   catch_interrupts();
   const RunFolder run = read_run(options.run);
-  const auto dataset = open_dataset_of(run, options.dataset);
-  const TrajectoryErrors errors = measure_trajectory(run, *dataset);
-  const std::optional<MapQuality> images = measure_images(options, run, *dataset);
+  const Dataset dataset = open_dataset_of(run, options.dataset);
+  const TrajectoryErrors errors = measure_trajectory(run, dataset);
+  const std::optional<MapQuality> images = measure_images(options, run, *dataset.recording);
   if (!options.json.empty()) {
     const auto json = to_json(run, errors, images);
     write_file(options.json, [&](std::ostream& stream) { stream << json.dump(2) << "\n"; });

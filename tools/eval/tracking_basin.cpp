@@ -93,9 +93,9 @@ std::vector<BasinRow> make_rows() {
 }
 
 /// Frames that were not lost, evenly spread: in the middle of so many equal parts of the run.
-std::vector<QualityView> spread_views(const RunFolder& run, const Dataset& dataset, int count) {
+std::vector<QualityView> spread_views(const RunFolder& run, const Recording& recording, int count) {
   std::vector<QualityView> tracked;
-  const std::vector<QualityView> all = views_of(run, dataset);
+  const std::vector<QualityView> all = views_of(run, recording);
   for (std::size_t i = 0; i < all.size(); ++i) {
     const bool lost = run.metrics["per_frame"][i].value("lost", false);
     if (!lost && all[i].camera.world_to_camera.matrix().allFinite()) tracked.push_back(all[i]);
@@ -119,8 +119,8 @@ class Basin {
   }
 
   /// Tracks a frame from all starting poses. Returns false, with nothing done, where it cannot be read.
-  bool measure(const Dataset& dataset, const QualityView& view) {
-    const LoadedFrame loaded = dataset.load(view.index);
+  bool measure(const Recording& recording, const QualityView& view) {
+    const LoadedFrame loaded = recording.load(view.index);
     if (!loaded.frame) {
       fmt::print(stderr, "skipped: frame {}: {}\n", view.index, loaded.problem);
       return false;
@@ -192,14 +192,14 @@ std::string basin_json(const BasinOptions& options, const std::vector<BasinRow>&
 int measure_basin(const BasinOptions& options) {
   catch_interrupts();
   const RunFolder run = read_run(options.run);
-  const auto dataset = open_dataset_of(run, options.dataset);
-  const std::vector<QualityView> views = spread_views(run, *dataset, options.frames);
+  const Dataset dataset = open_dataset_of(run, options.dataset);
+  const std::vector<QualityView> views = spread_views(run, *dataset.recording, options.frames);
   Basin basin(options, run);
   int measured = 0;
   {
     CountProgress progress("frames", static_cast<int>(views.size()));
     for (std::size_t i = 0; i < views.size() && !interrupted(); ++i) {
-      measured += basin.measure(*dataset, views[i]) ? 1 : 0;
+      measured += basin.measure(*dataset.recording, views[i]) ? 1 : 0;
       progress.reached(static_cast<int>(i) + 1);
     }
   }

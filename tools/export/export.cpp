@@ -87,11 +87,11 @@ void show_run(const ExportOptions& options, WebPageContent& content) {
                run.dataset_problem);
     return;
   }
-  content.camera = run.dataset->intrinsics().scaled(run.folder.number("/dataset/scale"));
+  content.camera = run.dataset->recording->intrinsics().scaled(run.folder.number("/dataset/scale"));
   for (const PosePair& pair : run.pairs)
     content.truth.push_back({pair.timestamp, run.accuracy->alignment.inverse() * pair.truth});
   for (Trajectory* poses : {&content.estimate, &content.keyframes, &content.truth})
-    *poses = of_tracked_camera(std::move(*poses), *run.dataset);
+    *poses = of_tracked_camera(std::move(*poses), *run.dataset->recording);
 }
 
 int export_web(const ExportOptions& options) {

@@ -36,7 +36,7 @@ struct FusionView {
 /// What the frames are taken from.
 struct Input {
   std::optional<RunFolder> run;
-  std::unique_ptr<Dataset> dataset;
+  Dataset dataset;
   std::vector<FusionView> views;
   double depth_max = 0;  ///< metres
 };
@@ -59,25 +59,25 @@ const StampedPose* nearest_pose(const Trajectory& trajectory, double timestamp) 
 }
 
 /// All frames of the dataset that the trajectory has a pose for.
-std::vector<FusionView> views_along(const Trajectory& trajectory, const Dataset& dataset,
+std::vector<FusionView> views_along(const Trajectory& trajectory, const Recording& recording,
                                     const Intrinsics& intrinsics) {
   std::vector<FusionView> views;
-  for (int i = 0; i < dataset.size(); ++i) {
-    const StampedPose* pose = nearest_pose(trajectory, dataset.timestamp(i));
+  for (int i = 0; i < recording.count(); ++i) {
+    const StampedPose* pose = nearest_pose(trajectory, recording.timestamp(i));
     if (pose) views.push_back({i, {intrinsics, pose->camera_to_world.inverse()}});
   }
   return views;
 }
 
 Trajectory read_poses(const std::string& where, const Dataset& dataset) {
-  if (where != "true") return of_tracked_camera(read_trajectory(where), dataset);
-  if (!dataset.ground_truth()) throw InputError("--trajectory true: this dataset has no ground truth");
-  return of_tracked_camera(*dataset.ground_truth(), dataset);
+  if (where != "true") return of_tracked_camera(read_trajectory(where), *dataset.recording);
+  if (!dataset.ground_truth) throw InputError("--trajectory true: this dataset has no ground truth");
+  return of_tracked_camera(*dataset.ground_truth, *dataset.recording);
 }
 
 /// The frames of a run that were not lost, at its poses.
-std::vector<FusionView> views_of_run(const RunFolder& run, const Dataset& dataset) {
-  const std::vector<QualityView> all = views_of(run, dataset);
+std::vector<FusionView> views_of_run(const RunFolder& run, const Recording& recording) {
+  const std::vector<QualityView> all = views_of(run, recording);
   std::vector<FusionView> views;
   for (std::size_t i = 0; i < all.size(); ++i) {
     if (!run.metrics["per_frame"][i].value("lost", false)) views.push_back({all[i].index, all[i].camera});
@@ -91,7 +91,7 @@ double depth_limit(const MeshOptions& options, const Input& input) {
     return input.run->number("/dataset/depth_max_m");
   }
   SlamSettings settings;
-  load_settings(settings, RunOptions(), input.dataset->format());
+  load_settings(settings, RunOptions(), input.dataset.recording->format());
   return settings.depth_max;
 }
 
@@ -122,13 +122,14 @@ Input open_input(const MeshOptions& options) {
     input.dataset = open_dataset(options.dataset, options.format);
   }
   input.depth_max = depth_limit(options, input);
+  const Recording& recording = *input.dataset.recording;
   const bool rendered = options.source == MeshSource::Rendered;
   const double scale = rendered ? input.run->number("/dataset/scale") : 1;
-  const Intrinsics intrinsics = input.dataset->intrinsics().scaled(scale);
+  const Intrinsics intrinsics = recording.intrinsics().scaled(scale);
   const std::vector<FusionView> views =
       options.trajectory.empty()
-          ? views_of_run(*input.run, *input.dataset)
-          : views_along(read_poses(options.trajectory, *input.dataset), *input.dataset, intrinsics);
+          ? views_of_run(*input.run, recording)
+          : views_along(read_poses(options.trajectory, input.dataset), recording, intrinsics);
   for (std::size_t i = 0; i < views.size(); i += static_cast<std::size_t>(options.stride)) {
     input.views.push_back({views[i].index, {intrinsics, views[i].camera.world_to_camera}});
   }
@@ -147,8 +148,8 @@ FusionImages rendered_images(const SplatEngine& engine, const FusionView& view, 
   return {true, std::move(images.depth_median), std::move(images.colour)};
 }
 
-FusionImages sensor_images(const Dataset& dataset, const FusionView& view, double depth_max) {
-  const LoadedFrame loaded = dataset.load(view.index);
+FusionImages sensor_images(const Recording& recording, const FusionView& view, double depth_max) {
+  const LoadedFrame loaded = recording.load(view.index);
   if (!loaded.frame) {
     fmt::print(stderr, "skipped: frame {}: {}\n", view.index, loaded.problem);
     return {};
@@ -188,7 +189,7 @@ int integrate(TsdfVolume& volume, const Input& input,
 int integrate_source(TsdfVolume& volume, const Input& input, const MeshOptions& options) {
   if (options.source == MeshSource::Sensor) {
     return integrate(volume, input, [&](const FusionView& view) {
-      return sensor_images(*input.dataset, view, input.depth_max);
+      return sensor_images(*input.dataset.recording, view, input.depth_max);
     });
   }
   SplatEngine engine(options.engine);

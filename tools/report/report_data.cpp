@@ -30,8 +30,8 @@ Eigen::Matrix3d align_orientations(const std::vector<PosePair>& pairs) {
 }
 
 void measure_errors(ReportRun& run) {
-  if (!run.dataset || !run.dataset->ground_truth()) return;
-  const Trajectory& truth = *run.dataset->ground_truth();
+  if (!run.dataset || !run.dataset->ground_truth) return;
+  const Trajectory& truth = *run.dataset->ground_truth;
   try {
     run.accuracy = evaluate_trajectory(run.folder.trajectory, truth);
   } catch (const InputError&) {

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <map>
-#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -22,9 +21,9 @@ struct FrameError {
 /// Everything that a report shows of one run.
 struct ReportRun {
   RunFolder folder;
-  std::string label;                 ///< what the report calls it; no two are the same
-  std::unique_ptr<Dataset> dataset;  ///< null where it is not there any more
-  std::string dataset_problem;       ///< why
+  std::string label;               ///< what the report calls it; no two are the same
+  std::optional<Dataset> dataset;  ///< nullopt where it is not there any more
+  std::string dataset_problem;     ///< why
   std::optional<TrajectoryMetrics> accuracy;
   std::vector<PosePair> pairs;  ///< poses and truths, both in the truth's world
   std::vector<FrameError> errors;

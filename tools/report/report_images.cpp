@@ -138,7 +138,7 @@ class ImageBlock {
 
   void add(const ReportRun& run, SplatEngine& engine) {
     assign_map(engine, run.folder);
-    const std::vector<QualityView> views = views_of(run.folder, *run.dataset);
+    const std::vector<QualityView> views = views_of(run.folder, *run.dataset->recording);
     for (std::size_t k = 0; k < frames_.size() && !interrupted(); ++k) {
       const auto position = position_of(run, frames_[k]);
       if (!position) {
@@ -147,7 +147,7 @@ class ImageBlock {
             fmt::format("has no frame {}; --frames takes indices of frames that were fed", frames_[k]));
       }
       const QualityView& view = views[*position];
-      const LoadedFrame loaded = run.dataset->load(frames_[k]);
+      const LoadedFrame loaded = run.dataset->recording->load(frames_[k]);
       if (!loaded.frame || !view.camera.world_to_camera.matrix().allFinite()) continue;
       SensorImages sensor = prepare(resize_frame(*loaded.frame, run.folder.number("/dataset/scale")),
                                     run.folder.number("/dataset/depth_max_m"));
@@ -188,7 +188,7 @@ class ImageBlock {
 }  // namespace
 
 std::string image_section(const std::vector<ReportRun>& runs, const ImageOptions& options) {
-  if (std::none_of(runs.begin(), runs.end(), [](const ReportRun& run) { return run.dataset != nullptr; }))
+  if (std::none_of(runs.begin(), runs.end(), [](const ReportRun& run) { return run.dataset.has_value(); }))
     return "";
   SplatEngine engine(options.engine);
   const std::vector<RunGroup> groups = group_by_dataset(runs);

@@ -107,14 +107,21 @@ std::string scores_line(const char* title, const ImageScores& scores) {
 
 }  // namespace
 
+std::function<std::optional<Frame>(int)> frames_of(const Recording& recording, double scale) {
+  return [&recording, scale](int index) -> std::optional<Frame> {
+    const LoadedFrame loaded = recording.load(index);
+    return loaded.frame ? std::optional(resize_frame(*loaded.frame, scale)) : std::nullopt;
+  };
+}
+
 std::optional<MapQuality> measure_map_quality(const QualityInput& input) {
   ScoreSum all, held_out;
   for (std::size_t i = 0; i < input.views.size(); ++i) {
     if (interrupted()) return std::nullopt;
     const QualityView& view = input.views[i];
-    const LoadedFrame loaded = input.dataset.load(view.index);
-    if (loaded.frame && view.camera.world_to_camera.matrix().allFinite()) {
-      const FrameScores scores = score(input, view.camera, resize_frame(*loaded.frame, input.scale));
+    const std::optional<Frame> frame = input.frame(view.index);
+    if (frame && view.camera.world_to_camera.matrix().allFinite()) {
+      const FrameScores scores = score(input, view.camera, *frame);
       all.add(scores);
       if (!view.keyframe) held_out.add(scores);
     }

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "engine/eval/lpips.h"
-#include "engine/sources/dataset.h"
+#include "engine/sources/recording.h"
 #include "engine/types/render_images.h"
 
 namespace surefield {
@@ -37,14 +37,18 @@ struct QualityView {
 
 /// What to compare, and how.
 struct QualityInput {
-  const Dataset& dataset;
+  /// The frame of an index again, at the size of the views; nullopt where it cannot be read.
+  std::function<std::optional<Frame>(int index)> frame;
   std::vector<QualityView> views;
-  double scale = 1;                                     ///< of the images, as in FrameSelection
   double depth_max = 0;                                 ///< metres
   std::function<RenderImages(const Camera&)> render;    ///< of the map
   Lpips* lpips = nullptr;                               ///< none: not measured
   std::function<void(std::size_t)> progress = nullptr;  ///< told how many views are done
 };
+
+/// QualityInput::frame for a source that can be read again: its frames at `scale`, as in FrameSelection.
+/// `recording` must outlive it.
+std::function<std::optional<Frame>(int)> frames_of(const Recording& recording, double scale);
 
 /// Renders the map at every view and compares it with the frame. Frames that cannot be read take no part.
 /// Stops without a result when the user interrupts; nullopt also where no frame could be compared.

@@ -4,7 +4,7 @@
 
 #include "engine/config/built_in_configs.h"
 #include "engine/eval/depth_delay.h"
-#include "engine/synth/synthetic_dataset.h"
+#include "engine/synth/synthetic_recording.h"
 #include "engine/types/error.h"
 
 namespace surefield {
@@ -15,7 +15,7 @@ constexpr const char* kSynthetic = "synthetic";
 
 }  // namespace
 
-std::unique_ptr<Dataset> open_run_dataset(const RunOptions& options) {
+Dataset open_run_dataset(const RunOptions& options) {
   if (options.dataset != kSynthetic)
     return open_dataset(options.dataset, options.format, options.depth_delay.value_or(0));
   if (options.format != "auto" && options.format != kSynthetic) {
@@ -25,16 +25,18 @@ std::unique_ptr<Dataset> open_run_dataset(const RunOptions& options) {
   gpu::DeviceOptions device;
   device.selector = options.engine.device;
   device.validate = options.engine.validate;
-  return std::make_unique<SyntheticDataset>(device);
+  auto recording = std::make_unique<SyntheticRecording>(device);
+  Trajectory truth = recording->ground_truth();
+  return {std::move(recording), std::move(truth)};
 }
 
 RunOptions with_depth_delay(RunOptions options) {
   if (options.depth_delay || options.dataset == kSynthetic) return options;
   const auto open = [asked = options](double added) mutable {
     asked.depth_delay = added;
-    return open_run_dataset(asked);
+    return open_run_dataset(asked).recording;
   };
-  options.depth_delay = estimate_depth_delay(*open_run_dataset(options), open);
+  options.depth_delay = estimate_depth_delay(*open_run_dataset(options).recording, open);
   return options;
 }
 

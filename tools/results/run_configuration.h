@@ -1,12 +1,12 @@
 #pragma once
 
-#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "engine/slam/settings.h"
 #include "engine/sources/frame_stream.h"
+#include "engine/sources/open_dataset.h"
 #include "tools/shared/picture_size.h"
 
 namespace surefield {
@@ -30,7 +30,7 @@ struct RunOptions {
 
 /// Opens the dataset that the options name. Throws InputError; where the options say no delay of the depth
 /// images, it is none.
-std::unique_ptr<Dataset> open_run_dataset(const RunOptions& options);
+Dataset open_run_dataset(const RunOptions& options);
 
 /// The options with the delay of the depth images estimated where they leave it open. Throws InputError.
 RunOptions with_depth_delay(RunOptions options);

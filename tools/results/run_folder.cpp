@@ -82,7 +82,7 @@ void assign_map(SplatEngine& engine, const RunFolder& run) {
   engine.assign(read_map(run.map_file()).cloud, settings_of(run).depth_model);
 }
 
-std::unique_ptr<Dataset> open_dataset_of(const RunFolder& run, const std::string& instead) {
+Dataset open_dataset_of(const RunFolder& run, const std::string& instead) {
   RunOptions options;
   options.dataset = instead.empty() ? run.text("/dataset/path") : instead;
   if (options.dataset.empty()) {
@@ -94,23 +94,23 @@ std::unique_ptr<Dataset> open_dataset_of(const RunFolder& run, const std::string
   return open_run_dataset(options);
 }
 
-std::vector<QualityView> views_of(const RunFolder& run, const Dataset& dataset) {
-  const Intrinsics intrinsics = dataset.intrinsics().scaled(run.number("/dataset/scale"));
+std::vector<QualityView> views_of(const RunFolder& run, const Recording& recording) {
+  const Intrinsics intrinsics = recording.intrinsics().scaled(run.number("/dataset/scale"));
   if (intrinsics.width != run.number("/dataset/width") ||
       intrinsics.height != run.number("/dataset/height")) {
     throw InputError(run.path,
-                     "was made from images of another size than those of dataset " + dataset.name());
+                     "was made from images of another size than those of dataset " + recording.name());
   }
-  const Trajectory tracked = of_tracked_camera(run.trajectory, dataset);
+  const Trajectory tracked = of_tracked_camera(run.trajectory, recording);
   std::vector<QualityView> views;
   for (std::size_t i = 0; i < tracked.size(); ++i) {
     const nlohmann::json& frame = run.metrics["per_frame"][i];
     QualityView view{frame.value("index", -1),
                      {intrinsics, tracked[i].camera_to_world.inverse()},
                      frame.value("keyframe", false)};
-    if (view.index < 0 || view.index >= dataset.size()) {
+    if (view.index < 0 || view.index >= recording.count()) {
       throw InputError(run.path, fmt::format("has a frame {}, but dataset {} has {} frames", view.index,
-                                             dataset.name(), dataset.size()));
+                                             recording.name(), recording.count()));
     }
     views.push_back(view);
   }

@@ -1,13 +1,12 @@
 #pragma once
 
 #include <filesystem>
-#include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
 #include "engine/slam/settings.h"
-#include "engine/sources/dataset.h"
+#include "engine/sources/open_dataset.h"
 #include "engine/splat/engine.h"
 #include "tools/results/map_quality.h"
 
@@ -43,9 +42,9 @@ SlamSettings settings_of(const RunFolder& run);
 void assign_map(SplatEngine& engine, const RunFolder& run);
 
 /// Opens the dataset that the run was made from, or `instead` where that is not empty. Throws InputError.
-std::unique_ptr<Dataset> open_dataset_of(const RunFolder& run, const std::string& instead = "");
+Dataset open_dataset_of(const RunFolder& run, const std::string& instead = "");
 
 /// The views of all frames of a run, with the intrinsics that its images had.
-std::vector<QualityView> views_of(const RunFolder& run, const Dataset& dataset);
+std::vector<QualityView> views_of(const RunFolder& run, const Recording& recording);
 
 }  // namespace surefield

@@ -48,7 +48,7 @@ Json dataset_json(const RunRecord& record) {
 
 Json frames_json(const RunRecord& record) {
   return {
-      {"total", record.selected},
+      {"total", record.selected ? Json(*record.selected) : Json(nullptr)},
       {"fed", record.frames.size()},
       {"skipped", record.skipped.size()},
       {"lost", count_frames(record.frames, [](const FrameReport& frame) { return frame.lost; })},

@@ -26,9 +26,9 @@ struct RunRecord {
   std::string format;
   double depth_delay = 0;  ///< seconds, added to the stamps of depth images
   FrameSelection selection;
-  int selected = 0;       ///< frames that were to be fed
-  Intrinsics intrinsics;  ///< of the frames fed
-  double depth_max = 0;   ///< metres
+  std::optional<int> selected;  ///< frames that were to be fed; nullopt: nobody knew how many
+  Intrinsics intrinsics;        ///< of the frames fed
+  double depth_max = 0;         ///< metres
   std::vector<SkippedFrame> skipped;
   std::vector<FrameReport> frames;  ///< those fed
   Trajectory trajectory;            ///< one pose per frame fed, of the tracked camera

@@ -21,11 +21,11 @@ Intrinsics guessed_intrinsics(const RunFolder& run) {
 /// The true poses of the tracked camera during the run, in the world of the estimate; empty where they are
 /// not known.
 Trajectory truth_of(const RunFolder& run, const Dataset& dataset) {
-  if (!dataset.ground_truth() || run.trajectory.empty()) return {};
+  if (!dataset.ground_truth || run.trajectory.empty()) return {};
   Trajectory truth;
   try {
-    const Pose to_estimate = evaluate_trajectory(run.trajectory, *dataset.ground_truth()).alignment.inverse();
-    for (const StampedPose& pose : *dataset.ground_truth())
+    const Pose to_estimate = evaluate_trajectory(run.trajectory, *dataset.ground_truth).alignment.inverse();
+    for (const StampedPose& pose : *dataset.ground_truth)
       if (pose.is_finite() && (truth.empty() || pose.timestamp > truth.back().timestamp) &&
           pose.timestamp >= run.trajectory.front().timestamp &&
           pose.timestamp <= run.trajectory.back().timestamp)
@@ -33,13 +33,13 @@ Trajectory truth_of(const RunFolder& run, const Dataset& dataset) {
   } catch (const InputError&) {
     return {};  // too few poses to compare
   }
-  return of_tracked_camera(std::move(truth), dataset);
+  return of_tracked_camera(std::move(truth), *dataset.recording);
 }
 
 }  // namespace
 
 std::optional<SceneFrame> RunScene::load_frame(int position) const {
-  const LoadedFrame loaded = dataset->load(run.metrics["per_frame"][position].value("index", 0));
+  const LoadedFrame loaded = dataset->recording->load(run.metrics["per_frame"][position].value("index", 0));
   if (!loaded.frame) return std::nullopt;
   const Frame frame = resize_frame(*loaded.frame, run.number("/dataset/scale"));
   return SceneFrame{position,
@@ -62,11 +62,12 @@ RunScene read_run_scene(const std::filesystem::path& folder, const std::string& 
     scene.frame.camera.intrinsics = guessed_intrinsics(result.run);
     return result;
   }
-  const auto views = views_of(result.run, *result.dataset);  // checks that the dataset is the run's
-  scene.trajectory = of_tracked_camera(result.run.trajectory, *result.dataset);
-  scene.keyframes = of_tracked_camera(result.run.keyframes, *result.dataset);
+  const Recording& recording = *result.dataset->recording;
+  const auto views = views_of(result.run, recording);  // checks that the dataset is the run's
+  scene.trajectory = of_tracked_camera(result.run.trajectory, recording);
+  scene.keyframes = of_tracked_camera(result.run.keyframes, recording);
   scene.truth = truth_of(result.run, *result.dataset);
-  scene.frame.camera.intrinsics = result.dataset->intrinsics().scaled(result.run.number("/dataset/scale"));
+  scene.frame.camera.intrinsics = recording.intrinsics().scaled(result.run.number("/dataset/scale"));
   return result;
 }
 

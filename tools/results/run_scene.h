@@ -1,6 +1,5 @@
 #pragma once
 
-#include <memory>
 #include <optional>
 
 #include "engine/viewer/viewer_scene.h"
@@ -11,8 +10,8 @@ namespace surefield {
 /// The results of a run as pictures of them need them.
 struct RunScene {
   RunFolder run;
-  std::unique_ptr<Dataset> dataset;  ///< null where it is not there any more
-  std::string missing;               ///< why it is not, one line
+  std::optional<Dataset> dataset;  ///< nullopt where it is not there any more
+  std::string missing;             ///< why it is not, one line
   /// Poses of the tracked camera; the truth, where it is known, is in the world of the estimate. The frame
   /// has intrinsics only; without the dataset they are guessed, and good for frusta alone.
   ViewerScene scene;

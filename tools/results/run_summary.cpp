@@ -10,8 +10,9 @@ namespace {
 constexpr std::size_t kNamedFrames = 10;  // more would push the results off the screen; log.txt has them all
 
 std::string frames_line(const RunRecord& record) {
-  std::string text = fmt::format("frames           {} of {}, {} keyframes", record.frames.size(),
-                                 record.selected, record.keyframes.size());
+  std::string text =
+      fmt::format("frames           {}{}, {} keyframes", record.frames.size(),
+                  record.selected ? fmt::format(" of {}", *record.selected) : "", record.keyframes.size());
   const int lost = count_frames(record.frames, [](const FrameReport& frame) { return frame.lost; });
   const int retried = count_frames(record.frames, [](const FrameReport& frame) { return frame.retries > 0; });
   if (retried > 0) text += fmt::format(", {} tracked again from another pose", retried);

@@ -48,8 +48,8 @@ void RunFilm::fail() {
 
 void RunFilm::begin(const RunStart& start) {
   log_ = &start.log;
-  frames_ = start.frames;
-  newest_.camera.intrinsics = start.intrinsics;
+  frames_ = start.source.size();
+  newest_.camera.intrinsics = start.source.intrinsics();
   depth_model_ = start.settings.depth_model;
   guard([&] { stage_.emplace(device_); });
 }
@@ -108,7 +108,8 @@ cv::Mat RunFilm::paint(const Slam& slam) {
 }
 
 std::string RunFilm::caption(const Slam& slam) const {
-  return fmt::format("frame {} of {}{}   keyframes {}   Gaussians {}", newest_.index + 1, frames_,
+  return fmt::format("frame {}{}{}   keyframes {}   Gaussians {}", newest_.index + 1,
+                     frames_ ? fmt::format(" of {}", *frames_) : "",
                      slam.reports().back().lost ? ", lost" : "", slam.keyframes().size(),
                      stage_->painter.gaussians());
 }

@@ -50,7 +50,7 @@ class RunFilm : public RunObserver {
   std::optional<Stage> stage_;
   DepthModel depth_model_ = DepthModel::Plane;
   spdlog::logger* log_ = nullptr;
-  int frames_ = 0;  ///< that there are to feed
+  std::optional<int> frames_;  ///< that there are to feed; nullopt: nobody knows
   Follower follower_;
   Pose follower_pose_ = Pose::Identity();  ///< camera to world
   SceneFrame newest_;

@@ -15,6 +15,7 @@
 #include "engine/io/files.h"
 #include "engine/io/trajectory_file.h"
 #include "engine/session/frame_table.h"
+#include "engine/session/kept_keyframes.h"
 #include "engine/types/build_info.h"
 #include "engine/types/error.h"
 #include "engine/types/version.h"
@@ -76,18 +77,18 @@ void write_text(const std::filesystem::path& file, const std::string& text) {
   write_file(file, [&](std::ostream& stream) { stream << text; });
 }
 
-/// Feeds the frames of a stream to SLAM and keeps account.
+/// Feeds the frames of a source to SLAM and keeps account.
 class Feeder {
  public:
-  Feeder(FrameStream& stream, Slam& slam, spdlog::logger& log, const RunObservers& observers, bool quiet)
-      : stream_(stream), slam_(slam), log_(log), observers_(observers), progress_(stream.size(), quiet) {}
+  Feeder(FrameSource& source, Slam& slam, spdlog::logger& log, const RunObservers& observers, bool quiet)
+      : source_(source), slam_(slam), log_(log), observers_(observers), progress_(source.size(), quiet) {}
 
   /// Until the last frame, an interruption or an error, which is thrown.
   void feed_all() {
     while (!interrupted()) {
       for (RunObserver* observer : observers_) observer->before_frame(slam_);
       if (interrupted()) return;
-      const std::optional<Frame> frame = stream_.next();
+      const std::optional<Frame> frame = source_.next();
       note_unreadable();
       if (!frame) return slam_.finish();
       feed(*frame);
@@ -120,7 +121,7 @@ class Feeder {
   }
 
   void note_unreadable() {
-    for (; unreadable_ < stream_.skipped().size(); ++unreadable_) skip(stream_.skipped()[unreadable_]);
+    for (; unreadable_ < source_.problems().size(); ++unreadable_) skip(source_.problems()[unreadable_]);
   }
 
   void skip(const SkippedFrame& frame) {
@@ -129,12 +130,12 @@ class Feeder {
     progress_.skipped(fmt::format("frame {}: {}", frame.index, frame.reason));
   }
 
-  FrameStream& stream_;
+  FrameSource& source_;
   Slam& slam_;
   spdlog::logger& log_;
   const RunObservers& observers_;
   Progress progress_;
-  std::size_t unreadable_ = 0;  ///< of stream_.skipped(), those noted so far
+  std::size_t unreadable_ = 0;  ///< of source_.problems(), those noted so far
   std::vector<SkippedFrame> skipped_;
 };
 
@@ -147,26 +148,26 @@ std::optional<TrajectoryMetrics> accuracy(const Trajectory& estimate, const Traj
   }
 }
 
-/// What the dataset and the stream say about a run before it starts.
-RunRecord start_record(const RunOptions& options, const Dataset& dataset, const FrameStream& stream) {
+/// What the source of the frames says about a run before it starts.
+RunRecord start_record(const RunOptions& options, const FrameSource& source) {
   RunRecord record;
-  record.dataset = dataset.name();
+  record.dataset = source.name();
   record.dataset_path = dataset_path(options);
-  record.format = dataset.format();
+  record.format = source.format();
   record.depth_delay = options.depth_delay.value_or(0);
   record.selection = options.selection;
-  record.selected = stream.size();
-  record.intrinsics = stream.intrinsics();
+  record.selected = source.size();
+  record.intrinsics = source.intrinsics();
   return record;
 }
 
-/// Feeds the stream to its end, or to an interruption or an error, which is returned; `record` learns how it
+/// Feeds the frames to the end, or to an interruption or an error, which is returned; `record` learns how it
 /// went.
-std::exception_ptr feed_stream(RunRecord& record, FrameStream& stream, Slam& slam, spdlog::logger& log,
+std::exception_ptr feed_frames(RunRecord& record, FrameSource& source, Slam& slam, spdlog::logger& log,
                                const RunObservers& observers, bool quiet) {
   std::exception_ptr failure;
   const Clock::time_point start = Clock::now();
-  Feeder feeder(stream, slam, log, observers, quiet);
+  Feeder feeder(source, slam, log, observers, quiet);
   try {
     feeder.feed_all();
   } catch (...) {
@@ -180,31 +181,52 @@ std::exception_ptr feed_stream(RunRecord& record, FrameStream& stream, Slam& sla
   return failure;
 }
 
-/// Adds what SLAM and the ground truth say about a run that has ended.
-void complete_record(RunRecord& record, const Slam& slam, const Dataset& dataset) {
+/// Adds what SLAM and the ground truth, which may be null, say about a run that has ended.
+void complete_record(RunRecord& record, const Slam& slam, const FrameSource& source,
+                     const Trajectory* truth) {
   record.frames = slam.reports();
   record.trajectory = slam.trajectory();
   record.keyframes = slam.keyframes();
   record.engine = slam.engine_report();
-  record.accuracy = accuracy(of_reference_camera(record.trajectory, dataset), dataset.ground_truth());
-  record.keyframe_accuracy = accuracy(of_reference_camera(record.keyframes, dataset), dataset.ground_truth());
+  record.accuracy = accuracy(of_reference_camera(record.trajectory, source), truth);
+  record.keyframe_accuracy = accuracy(of_reference_camera(record.keyframes, source), truth);
 }
 
-/// Compares the final map with the frames fed, or with kMostCompared evenly spaced ones where there are more.
-std::optional<MapQuality> measure_images(const RunRecord& record, const Slam& slam, const Dataset& dataset) {
-  QualityInput input{.dataset = dataset,
-                     .views = {},
-                     .scale = record.selection.scale,
-                     .depth_max = record.depth_max,
-                     .render = [&](const Camera& camera) { return slam.render(camera); }};
+/// The frames that the final map is compared with, by their places among those fed: all, or kMostCompared
+/// evenly spaced ones where there are more; the kept keyframes where the source cannot be read again.
+std::vector<std::size_t> compared_frames(const RunRecord& record, const FrameSource& source,
+                                         const KeptKeyframes& kept) {
+  std::vector<std::size_t> places;
   const std::size_t fed = record.frames.size();
-  const std::size_t count = std::min(fed, kMostCompared);
-  for (std::size_t k = 0; k < count; ++k) {
-    const std::size_t i = count < 2 ? 0 : k * (fed - 1) / (count - 1);
+  if (source.recording()) {
+    const std::size_t count = std::min(fed, kMostCompared);
+    for (std::size_t k = 0; k < count; ++k) places.push_back(count < 2 ? 0 : k * (fed - 1) / (count - 1));
+  } else {
+    for (std::size_t i = 0; i < fed; ++i)
+      if (kept.find(record.frames[i].index)) places.push_back(i);
+  }
+  return places;
+}
+
+/// Compares the final map with compared_frames().
+std::optional<MapQuality> measure_images(const RunRecord& record, const Slam& slam, const FrameSource& source,
+                                         const KeptKeyframes& kept) {
+  QualityInput input{
+      .frame = {}, .views = {}, .depth_max = record.depth_max, .render = [&](const Camera& camera) {
+        return slam.render(camera);
+      }};
+  if (source.recording()) {
+    input.frame = frames_of(*source.recording(), record.selection.scale);
+  } else {
+    input.frame = [&](int index) {
+      const Frame* frame = kept.find(index);
+      return frame ? std::optional(*frame) : std::nullopt;
+    };
+  }
+  for (std::size_t i : compared_frames(record, source, kept))
     input.views.push_back({record.frames[i].index,
                            {record.intrinsics, record.trajectory[i].camera_to_world.inverse()},
                            record.frames[i].keyframe});
-  }
   return measure_map_quality(input);
 }
 
@@ -217,18 +239,18 @@ void save_map(Results& results, const std::string& format, const GaussianCloud& 
   results.save("map." + format, [&](const auto& file) { write_map(file, map); });
 }
 
-void save_results(Results& results, RunRecord& record, const Slam& slam, const Dataset& dataset,
-                  const std::string& map_format) {
+void save_results(Results& results, RunRecord& record, const Slam& slam, const FrameSource& source,
+                  const KeptKeyframes& kept, const std::string& map_format) {
   const auto save_trajectory = [&](const std::string& name, const Trajectory& trajectory) {
     results.save(name,
-                 [&](const auto& file) { write_trajectory(file, of_reference_camera(trajectory, dataset)); });
+                 [&](const auto& file) { write_trajectory(file, of_reference_camera(trajectory, source)); });
   };
   save_trajectory("trajectory.txt", record.trajectory);
   save_trajectory("keyframes.txt", record.keyframes);
   save_map(results, map_format, slam.map());
   if (record.end == RunEnd::Completed) {
     results.save("the image quality",
-                 [&](const auto&) { record.images = measure_images(record, slam, dataset); });
+                 [&](const auto&) { record.images = measure_images(record, slam, source, kept); });
   }
   results.save("frames.csv", [&](const auto& file) { write_text(file, frames_csv(record.frames)); });
   results.save("metrics.json", [&](const auto& file) { write_text(file, metrics_json(record)); });
@@ -246,16 +268,20 @@ void report(Results& results, const RunRecord& record, bool quiet) {
   std::fflush(stdout);
 }
 
-/// Tells the log what runs on what, and unless `quiet` the user what to know about the dataset.
-void announce(spdlog::logger& log, const RunRecord& record, const Dataset& dataset, const Slam& slam,
+/// Tells the log what runs on what, and unless `quiet` the user what to know about the source.
+void announce(spdlog::logger& log, const RunRecord& record, const FrameSource& source, const Slam& slam,
               bool quiet) {
   const EngineReport engine = slam.engine_report();
   log.info("surefield {} ({}) on {}, {}", kVersion, kGitCommit, engine.device, engine.driver);
-  log.info("{} ({}): {} frames of {} x {}", record.dataset, record.format, record.selected,
-           record.intrinsics.width, record.intrinsics.height);
+  log.info("{} ({}): {} frames of {} x {}", record.dataset, record.format,
+           record.selected ? std::to_string(*record.selected) : "no known number of", record.intrinsics.width,
+           record.intrinsics.height);
+  if (!source.recording())
+    log.info("its frames cannot be read again: the final map is compared with up to {} keyframes",
+             KeptKeyframes::kMost);
   if (record.depth_delay != 0)
     log.info("depth images are {:.0f} ms off their stamps", 1000 * record.depth_delay);
-  for (const std::string& warning : dataset.warnings()) {
+  for (const std::string& warning : source.warnings()) {
     log.warn(warning);
     if (!quiet) fmt::print(stderr, "surefield: warning: {}\n", warning);
   }
@@ -266,11 +292,11 @@ void announce(spdlog::logger& log, const RunRecord& record, const Dataset& datas
 int run_session(const RunOptions& asked, const RunObservers& observers) {
   catch_interrupts();
   const RunOptions options = with_depth_delay(asked);
-  const auto dataset = open_run_dataset(options);
+  const Dataset dataset = open_run_dataset(options);
   SlamSettings settings;
-  const std::string effective = load_settings(settings, options, dataset->format());
-  FrameStream stream(*dataset, options.selection);
-  RunRecord record = start_record(options, *dataset, stream);
+  const std::string effective = load_settings(settings, options, dataset.recording->format());
+  FrameStream stream(*dataset.recording, options.selection);
+  RunRecord record = start_record(options, stream);
   record.depth_max = settings.depth_max;
   Results results(options.out);
   write_text(results.folder() / "config.yaml", effective);
@@ -278,16 +304,17 @@ int run_session(const RunOptions& asked, const RunObservers& observers) {
   const Clock::time_point start = Clock::now();
   Slam slam(settings, stream.intrinsics(), options.engine);
   record.setup_seconds = seconds_since(start);
-  announce(results.log(), record, *dataset, slam, options.quiet);
+  announce(results.log(), record, stream, slam, options.quiet);
 
-  for (RunObserver* observer : observers)
-    observer->begin({*dataset, settings, stream.intrinsics(), stream.size(), results.log()});
-  const std::exception_ptr failure =
-      feed_stream(record, stream, slam, results.log(), observers, options.quiet);
-  complete_record(record, slam, *dataset);
-  save_results(results, record, slam, *dataset, options.map_format);
+  KeptKeyframes kept;
+  RunObservers all = observers;
+  all.push_back(&kept);
+  for (RunObserver* observer : all) observer->begin({stream, dataset.truth(), settings, results.log()});
+  const std::exception_ptr failure = feed_frames(record, stream, slam, results.log(), all, options.quiet);
+  complete_record(record, slam, stream, dataset.truth());
+  save_results(results, record, slam, stream, kept, options.map_format);
   report(results, record, options.quiet);
-  for (RunObserver* observer : observers) observer->finished(slam);
+  for (RunObserver* observer : all) observer->finished(slam);
   for (const std::string& problem : results.problems()) print_error(problem);
   if (failure) std::rethrow_exception(failure);
   if (!results.problems().empty()) return kFailure;

@@ -39,14 +39,13 @@ class ViewerObserver : public RunObserver {
   }
 
   void begin(const RunStart& start) override {
-    dataset_ = &start.dataset;
+    source_ = &start.source;
+    truth_ = start.ground_truth;
     log_ = &start.log;
-    intrinsics_ = start.intrinsics;
-    frames_ = start.frames;
     settings_ = start.settings;
     settings_.bind(schema_);
     ViewerInput input;
-    input.title = "Surefield: " + start.dataset.name();
+    input.title = "Surefield: " + start.source.name();
     input.out = out_;
     input.depth_model = settings_.depth_model;
     input.depth_far = settings_.depth_max;
@@ -86,7 +85,9 @@ class ViewerObserver : public RunObserver {
     feed_.publish(
         numbers, report.keyframe,
         [&] {
-          return scene(slam, fmt::format("frame {} of {}{}", fed_, frames_, report.lost ? ", lost" : ""));
+          const std::optional<int> frames = source_->size();
+          return scene(slam, fmt::format("frame {}{}{}", fed_, frames ? fmt::format(" of {}", *frames) : "",
+                                         report.lost ? ", lost" : ""));
         },
         [&] { return slam.map(); });
   }
@@ -98,10 +99,9 @@ class ViewerObserver : public RunObserver {
  private:
   /// Compares the trajectory with the truth.
   void measure(const Slam& slam) {
-    if (!dataset_->ground_truth()) return;
+    if (!truth_) return;
     try {
-      const auto metrics =
-          evaluate_trajectory(of_reference_camera(slam.trajectory(), *dataset_), *dataset_->ground_truth());
+      const auto metrics = evaluate_trajectory(of_reference_camera(slam.trajectory(), *source_), *truth_);
       ate_cm_ = static_cast<float>(100 * metrics.ate.rmse);
       to_estimate_ = metrics.alignment.inverse();
     } catch (const InputError&) {
@@ -117,12 +117,13 @@ class ViewerObserver : public RunObserver {
     scene.status = std::move(status);
     if (scene.trajectory.empty()) return scene;
     const StampedPose &oldest = scene.trajectory.front(), &newest = scene.trajectory.back();
-    scene.frame = {fed_ - 1, {intrinsics_, newest.camera_to_world.inverse()}, frame_.colour, frame_.depth};
+    scene.frame = {
+        fed_ - 1, {source_->intrinsics(), newest.camera_to_world.inverse()}, frame_.colour, frame_.depth};
     if (!std::isfinite(ate_cm_)) return scene;
-    for (const StampedPose& pose : *dataset_->ground_truth())
+    for (const StampedPose& pose : *truth_)
       if (pose.timestamp >= oldest.timestamp && pose.timestamp <= newest.timestamp)
         scene.truth.push_back({pose.timestamp, to_estimate_ * pose.camera_to_world});
-    scene.truth = of_tracked_camera(std::move(scene.truth), *dataset_);
+    scene.truth = of_tracked_camera(std::move(scene.truth), *source_);
     return scene;
   }
 
@@ -130,10 +131,9 @@ class ViewerObserver : public RunObserver {
   std::string out_;
   std::promise<ViewerInput> input_;
   bool begun_ = false;
-  const Dataset* dataset_ = nullptr;
+  const FrameSource* source_ = nullptr;
+  const Trajectory* truth_ = nullptr;  ///< null where there is none
   spdlog::logger* log_ = nullptr;
-  Intrinsics intrinsics_;
-  int frames_ = 0;
   SlamSettings settings_;
   ConfigSchema schema_;
   Clock::time_point last_ = Clock::now();

@@ -7,7 +7,7 @@
 #include <new>
 
 #include "engine/gpu/error.h"
-#include "engine/sources/dataset.h"
+#include "engine/sources/open_dataset.h"
 #include "engine/types/error.h"
 
 namespace surefield {

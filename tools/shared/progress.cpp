@@ -13,6 +13,7 @@ namespace surefield {
 namespace {
 
 constexpr const char* kClearLine = "\r\x1b[K";
+constexpr int kCountedLines = 100;  // frames to a line where nobody knows how many there will be
 
 }  // namespace
 
@@ -20,12 +21,12 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-Progress::Progress(int frames, bool quiet)
-    : frames_(std::max(1, frames)),
+Progress::Progress(std::optional<int> frames, bool quiet)
+    : frames_(frames ? std::optional(std::max(1, *frames)) : std::nullopt),
       quiet_(quiet),
       terminal_(isatty(STDERR_FILENO) == 1),
       start_(std::chrono::steady_clock::now()) {
-  if (!quiet_ && terminal_) draw_bar("", static_cast<double>(done_) / frames_, numbers());
+  if (!quiet_ && terminal_) draw();
 }
 
 Progress::~Progress() {
@@ -48,22 +49,41 @@ void Progress::advance() {
   ++done_;
   if (quiet_) return;
   if (terminal_) {
-    draw_bar("", static_cast<double>(done_) / frames_, numbers());
-  } else if (10 * done_ / frames_ != 10 * (done_ - 1) / frames_) {
+    draw();
+  } else if (is_reported()) {
     fmt::print(stderr, "{}\n", numbers());
   }
 }
 
+void Progress::draw() const {
+  if (frames_) {
+    draw_bar("", static_cast<double>(done_) / *frames_, numbers());
+  } else {
+    fmt::print(stderr, "{}{}", kClearLine, numbers());
+    std::fflush(stderr);
+  }
+}
+
+/// Whether a line is due where there is no terminal.
+bool Progress::is_reported() const {
+  if (!frames_) return done_ % kCountedLines == 0;
+  return 10 * done_ / *frames_ != 10 * (done_ - 1) / *frames_;
+}
+
+std::string Progress::count() const {
+  return frames_ ? fmt::format("{}/{}", done_, *frames_) : fmt::format("{}", done_);
+}
+
 std::string Progress::numbers() const {
-  if (fed_ == 0) return fmt::format("{}/{}  first frame", done_, frames_);
-  return fmt::format("{}/{}  {:.2f} FPS  loss {:.4f}  {} Gaussians  ETA {}", done_, frames_,
-                     fed_ / seconds_since(start_), last_.tracking_loss, last_.gaussians, remaining());
+  if (fed_ == 0) return count() + "  first frame";
+  return fmt::format("{}  {:.2f} FPS  loss {:.4f}  {} Gaussians{}", count(), fed_ / seconds_since(start_),
+                     last_.tracking_loss, last_.gaussians, frames_ ? "  ETA " + remaining() : "");
 }
 
 std::string Progress::remaining() const {
   if (done_ < 2) return "-";
   const double each = (seconds_since(start_) - first_frame_seconds_) / (done_ - 1);
-  const int seconds = static_cast<int>(each * std::max(0, frames_ - done_) + 0.5);
+  const int seconds = static_cast<int>(each * std::max(0, *frames_ - done_) + 0.5);
   return fmt::format("{}:{:02}", seconds / 60, seconds % 60);
 }
 

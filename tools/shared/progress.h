@@ -1,6 +1,7 @@
 #pragma once
 
 #include <chrono>
+#include <optional>
 #include <string>
 
 #include "engine/slam/slam.h"
@@ -14,8 +15,8 @@ double seconds_since(std::chrono::steady_clock::time_point start);
 /// frames.
 class Progress {
  public:
-  /// `frames` is how many there will be, the skipped ones included.
-  Progress(int frames, bool quiet);
+  /// `frames` is how many there will be, the skipped ones included; where nobody knows, the line only counts.
+  Progress(std::optional<int> frames, bool quiet);
   ~Progress();
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
@@ -27,10 +28,13 @@ class Progress {
 
  private:
   void advance();
+  void draw() const;
+  bool is_reported() const;
+  std::string count() const;
   std::string numbers() const;
   std::string remaining() const;
 
-  int frames_;
+  std::optional<int> frames_;
   bool quiet_;
   bool terminal_;
   int done_ = 0;

@@ -1,10 +1,10 @@
-#include "engine/sources/dataset.h"
+#include "engine/sources/open_dataset.h"
 
 #include <algorithm>
 #include <array>
 #include <utility>
 
-#include "engine/sources/file_dataset.h"
+#include "engine/sources/file_recording.h"
 #include "engine/sources/layouts.h"
 #include "engine/types/error.h"
 
@@ -16,16 +16,23 @@ struct Layout {
   const char* format;
   const char* looked_for;
   bool (*fits)(const std::filesystem::path&);
-  std::unique_ptr<Dataset> (*open)(const std::filesystem::path&, double depth_delay);
+  Dataset (*open)(const std::filesystem::path&, double depth_delay);
 };
 
-template <StoredSequence (*Read)(const std::filesystem::path&)>
-std::unique_ptr<Dataset> open_files(const std::filesystem::path& folder, double) {
-  return std::make_unique<FileDataset>(Read(folder));
+Dataset dataset_of(StoredSequence sequence) {
+  Dataset dataset;
+  dataset.ground_truth = std::move(sequence.ground_truth);
+  dataset.recording = std::make_unique<FileRecording>(std::move(sequence));
+  return dataset;
 }
 
-std::unique_ptr<Dataset> open_tum(const std::filesystem::path& folder, double depth_delay) {
-  return std::make_unique<FileDataset>(read_tum_sequence(folder, depth_delay));
+template <StoredSequence (*Read)(const std::filesystem::path&)>
+Dataset open_files(const std::filesystem::path& folder, double) {
+  return dataset_of(Read(folder));
+}
+
+Dataset open_tum(const std::filesystem::path& folder, double depth_delay) {
+  return dataset_of(read_tum_sequence(folder, depth_delay));
 }
 
 constexpr std::array<Layout, 7> kLayouts = {{
@@ -77,18 +84,6 @@ const Layout& find_layout(const std::filesystem::path& path, const std::string& 
 
 }  // namespace
 
-Trajectory of_reference_camera(Trajectory tracked, const Dataset& dataset) {
-  const Pose reference_to_tracked = dataset.tracked_to_reference().inverse();
-  for (StampedPose& pose : tracked) pose.camera_to_world = pose.camera_to_world * reference_to_tracked;
-  return tracked;
-}
-
-Trajectory of_tracked_camera(Trajectory reference, const Dataset& dataset) {
-  const Pose tracked_to_reference = dataset.tracked_to_reference();
-  for (StampedPose& pose : reference) pose.camera_to_world = pose.camera_to_world * tracked_to_reference;
-  return reference;
-}
-
 std::vector<std::string> dataset_formats() {
   std::vector<std::string> formats;
   for (const Layout& layout : kLayouts) {
@@ -97,8 +92,7 @@ std::vector<std::string> dataset_formats() {
   return formats;
 }
 
-std::unique_ptr<Dataset> open_dataset(const std::filesystem::path& path, const std::string& format,
-                                      double depth_delay) {
+Dataset open_dataset(const std::filesystem::path& path, const std::string& format, double depth_delay) {
   if (!std::filesystem::exists(path)) {
     throw InputError(path, "there is no such folder; give the folder of the sequence");
   }

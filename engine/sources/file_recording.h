@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "engine/io/images.h"
-#include "engine/sources/dataset.h"
 #include "engine/sources/depth_registration.h"
+#include "engine/sources/recording.h"
 
 namespace surefield {
 
@@ -30,21 +30,21 @@ struct StoredSequence {
   std::optional<DepthRegistration>
       registration;                              ///< where the depth camera is another than the colour camera
   bool resize_colour = false;                    ///< whether colour is averaged down to the depth's size
-  Pose tracked_to_reference = Pose::Identity();  ///< see Dataset::tracked_to_reference
+  Pose tracked_to_reference = Pose::Identity();  ///< see FrameSource::tracked_to_reference
   std::vector<StoredFrame> frames;
   std::optional<Trajectory> ground_truth;
   std::vector<std::string> warnings;
 };
 
-/// A dataset of one colour and one depth file per frame; all readers of such layouts end here.
-class FileDataset : public Dataset {
+/// A recording of one colour and one depth file per frame; all readers of such layouts end here.
+class FileRecording : public Recording {
  public:
-  /// `sequence` has at least one frame.
-  explicit FileDataset(StoredSequence sequence);
+  /// `sequence` has at least one frame; its ground truth is not looked at.
+  explicit FileRecording(StoredSequence sequence);
 
   std::string name() const override { return sequence_.name; }
   std::string format() const override { return sequence_.format; }
-  int size() const override { return static_cast<int>(sequence_.frames.size()); }
+  int count() const override { return static_cast<int>(sequence_.frames.size()); }
   Intrinsics intrinsics() const override { return sequence_.intrinsics; }
   double depth_unit() const override { return sequence_.depth_encoding.unit; }
   double timestamp(int i) const override {
@@ -54,7 +54,6 @@ class FileDataset : public Dataset {
     return sequence_.frames.at(static_cast<std::size_t>(i)).depth_timestamp.value_or(timestamp(i));
   }
   LoadedFrame load(int i) const override;
-  const Trajectory* ground_truth() const override;
   Pose tracked_to_reference() const override { return sequence_.tracked_to_reference; }
   std::vector<std::string> warnings() const override { return sequence_.warnings; }
 

@@ -1,4 +1,4 @@
-#include "engine/synth/synthetic_dataset.h"
+#include "engine/synth/synthetic_recording.h"
 
 #include <utility>
 
@@ -22,19 +22,19 @@ const SynthSettings& checked(const SynthSettings& settings) {
 
 }  // namespace
 
-SyntheticDataset::SyntheticDataset(const gpu::DeviceOptions& device, const SynthSettings& settings)
+SyntheticRecording::SyntheticRecording(const gpu::DeviceOptions& device, const SynthSettings& settings)
     : settings_(checked(settings)),
       scene_(make_scene(settings.scene, settings.seed)),
       path_(scene_, path_style(settings.path), settings.seed, settings.frames / kFrameRate),
       device_(std::make_unique<gpu::Device>(device)),
       renderer_(*device_, scene_, settings.moving_object) {
   kinect_.seed = settings.seed;
-  for (int i = 0; i < size(); ++i) {
+  for (int i = 0; i < count(); ++i) {
     ground_truth_.push_back({timestamp(i), path_.world_to_camera(timestamp(i)).inverse()});
   }
 }
 
-Intrinsics SyntheticDataset::intrinsics() const {
+Intrinsics SyntheticRecording::intrinsics() const {
   const double focal_length = 0.85 * settings_.width;
   return {settings_.width,
           settings_.height,
@@ -44,11 +44,11 @@ Intrinsics SyntheticDataset::intrinsics() const {
           0.5 * (settings_.height - 1)};
 }
 
-double SyntheticDataset::colour_timestamp(int i) const {
+double SyntheticRecording::colour_timestamp(int i) const {
   return timestamp(i) + (settings_.sensor == SensorKind::Kinect ? kinect_.colour_delay : 0);
 }
 
-Exposure SyntheticDataset::exposure_of(int i) const {
+Exposure SyntheticRecording::exposure_of(int i) const {
   Exposure exposure;
   exposure.intrinsics = intrinsics();
   exposure.depth_pose = path_.world_to_camera(timestamp(i));
@@ -70,7 +70,7 @@ Exposure SyntheticDataset::exposure_of(int i) const {
   return exposure;
 }
 
-LoadedFrame SyntheticDataset::load(int i) const {
+LoadedFrame SyntheticRecording::load(int i) const {
   SceneImages images = renderer_.render(exposure_of(i));
   Frame frame;
   frame.index = i;

@@ -1,4 +1,4 @@
-#include "engine/synth/synthetic_dataset.h"
+#include "engine/synth/synthetic_recording.h"
 
 #include <doctest/doctest.h>
 
@@ -14,8 +14,8 @@ using Eigen::Vector3d;
 
 namespace {
 
-SyntheticDataset make(const SynthSettings& settings) {
-  return SyntheticDataset(testing::device_options(), settings);
+SyntheticRecording make(const SynthSettings& settings) {
+  return SyntheticRecording(testing::device_options(), settings);
 }
 
 /// What remains after pixels of one frame are moved into another one by the true poses.
@@ -36,11 +36,11 @@ double interpolated_depth(const cv::Mat& depth, double u, double v) {
   return 1 / std::lerp(std::lerp(1 / a, 1 / b, u - x), std::lerp(1 / c, 1 / d, u - x), v - y);
 }
 
-WarpResiduals warp(const SyntheticDataset& dataset, int from, int to) {
-  const Frame source = *dataset.load(from).frame, target = *dataset.load(to).frame;
-  const Trajectory& truth = *dataset.ground_truth();
+WarpResiduals warp(const SyntheticRecording& recording, int from, int to) {
+  const Frame source = *recording.load(from).frame, target = *recording.load(to).frame;
+  const Trajectory& truth = recording.ground_truth();
   const Pose motion = truth[to].camera_to_world.inverse() * truth[from].camera_to_world;
-  const Intrinsics k = dataset.intrinsics();
+  const Intrinsics k = recording.intrinsics();
   WarpResiduals residuals;
   for (int v = 0; v < k.height; ++v) {
     for (int u = 0; u < k.width; ++u) {
@@ -72,8 +72,8 @@ double percentile(std::vector<double> values, double fraction) {
 }  // namespace
 
 TEST_CASE("the true poses carry the pixels of a frame onto the same surfaces five frames later") {
-  const SyntheticDataset dataset = make({.width = 160, .height = 120});
-  const WarpResiduals residuals = warp(dataset, 10, 15);
+  const SyntheticRecording recording = make({.width = 160, .height = 120});
+  const WarpResiduals residuals = warp(recording, 10, 15);
   const double total = 160.0 * 120.0;
   CHECK(static_cast<double>(residuals.depth.size()) > 0.75 * total);
   CHECK(residuals.hidden < 0.1 * total);
@@ -83,14 +83,14 @@ TEST_CASE("the true poses carry the pixels of a frame onto the same surfaces fiv
 }
 
 TEST_CASE("a frame at 640 x 480 warped into the tenth after it meets the surfaces within half a millimetre") {
-  const SyntheticDataset dataset = make({.width = 640, .height = 480, .frames = 11});
-  CHECK(percentile(warp(dataset, 0, 10).depth, 0.5) < 0.0005);
+  const SyntheticRecording recording = make({.width = 640, .height = 480, .frames = 11});
+  CHECK(percentile(warp(recording, 0, 10).depth, 0.5) < 0.0005);
 }
 
 TEST_CASE("the frames are textured and neither dark nor burnt out") {
-  const SyntheticDataset dataset = make({.width = 160, .height = 120});
+  const SyntheticRecording recording = make({.width = 160, .height = 120});
   for (const int i : {0, 59}) {
-    const Frame frame = *dataset.load(i).frame;
+    const Frame frame = *recording.load(i).frame;
     cv::Scalar mean, deviation;
     cv::meanStdDev(frame.colour, mean, deviation);
     for (int c = 0; c < 3; ++c) {
@@ -103,20 +103,19 @@ TEST_CASE("the frames are textured and neither dark nor burnt out") {
 }
 
 TEST_CASE("frames, stamps and the true trajectory agree") {
-  const SyntheticDataset dataset = make({.width = 32, .height = 24, .frames = 4, .seed = 7});
-  CHECK(dataset.size() == 4);
-  CHECK(dataset.intrinsics().cx == doctest::Approx(15.5));
-  REQUIRE(dataset.ground_truth() != nullptr);
-  REQUIRE(dataset.ground_truth()->size() == 4);
-  for (int i = 0; i < dataset.size(); ++i) {
-    const LoadedFrame loaded = dataset.load(i);
+  const SyntheticRecording recording = make({.width = 32, .height = 24, .frames = 4, .seed = 7});
+  CHECK(recording.count() == 4);
+  CHECK(recording.intrinsics().cx == doctest::Approx(15.5));
+  REQUIRE(recording.ground_truth().size() == 4);
+  for (int i = 0; i < recording.count(); ++i) {
+    const LoadedFrame loaded = recording.load(i);
     REQUIRE(loaded.frame.has_value());
     CHECK(loaded.problem.empty());
     CHECK(loaded.frame->index == i);
-    CHECK(loaded.frame->timestamp == dataset.timestamp(i));
+    CHECK(loaded.frame->timestamp == recording.timestamp(i));
     CHECK(loaded.frame->colour.size() == cv::Size(32, 24));
-    CHECK(dataset.ground_truth()->at(i).timestamp == dataset.timestamp(i));
-    CHECK(dataset.ground_truth()->at(i).is_finite());
+    CHECK(recording.ground_truth().at(i).timestamp == recording.timestamp(i));
+    CHECK(recording.ground_truth().at(i).is_finite());
   }
 }
 

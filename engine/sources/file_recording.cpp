@@ -1,4 +1,4 @@
-#include "engine/sources/file_dataset.h"
+#include "engine/sources/file_recording.h"
 
 #include <fmt/format.h>
 
@@ -50,7 +50,7 @@ cv::Size stored_size(const std::vector<StoredFrame>& frames) {
   throw InputError("no depth image can be read; " + problem);
 }
 
-FileDataset::FileDataset(StoredSequence sequence) : sequence_(std::move(sequence)) {
+FileRecording::FileRecording(StoredSequence sequence) : sequence_(std::move(sequence)) {
   if (sequence_.distortion.empty()) return;
   const Intrinsics& k = sequence_.intrinsics;
   const cv::Matx33d camera(k.fx, 0, k.cx, 0, k.fy, k.cy, 0, 0, 1);
@@ -58,7 +58,7 @@ FileDataset::FileDataset(StoredSequence sequence) : sequence_(std::move(sequence
                               cv::Size(k.width, k.height), CV_32FC1, undistortion_x_, undistortion_y_);
 }
 
-LoadedFrame FileDataset::load(int i) const {
+LoadedFrame FileRecording::load(int i) const {
   const StoredFrame& stored = sequence_.frames.at(static_cast<std::size_t>(i));
   LoadedFrame loaded;
   try {
@@ -75,7 +75,7 @@ LoadedFrame FileDataset::load(int i) const {
   return loaded;
 }
 
-cv::Mat FileDataset::load_colour(const std::filesystem::path& file) const {
+cv::Mat FileRecording::load_colour(const std::filesystem::path& file) const {
   cv::Mat colour = read_colour(file);
   if (sequence_.resize_colour) {
     cv::resize(colour, colour, cv::Size(sequence_.intrinsics.width, sequence_.intrinsics.height), 0, 0,
@@ -85,17 +85,13 @@ cv::Mat FileDataset::load_colour(const std::filesystem::path& file) const {
   return colour;
 }
 
-cv::Mat FileDataset::load_depth(const std::filesystem::path& file) const {
+cv::Mat FileRecording::load_depth(const std::filesystem::path& file) const {
   const cv::Mat depth = read_depth(file, sequence_.depth_encoding);
   require_size(file, depth, sequence_.registration ? sequence_.registration->depth : sequence_.intrinsics);
   return sequence_.registration ? register_depth(depth, *sequence_.registration) : depth;
 }
 
-const Trajectory* FileDataset::ground_truth() const {
-  return sequence_.ground_truth ? &*sequence_.ground_truth : nullptr;
-}
-
-void FileDataset::undistort(Frame& frame) const {
+void FileRecording::undistort(Frame& frame) const {
   cv::Mat colour;
   cv::Mat depth;
   // Beyond the stored image colour repeats the border: black there would be learnt as a dark frame around the

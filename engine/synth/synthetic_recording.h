@@ -5,7 +5,7 @@
 #include <string>
 
 #include "engine/gpu/device.h"
-#include "engine/sources/dataset.h"
+#include "engine/sources/recording.h"
 #include "engine/synth/camera_path.h"
 #include "engine/synth/scene_renderer.h"
 #include "engine/synth/sensor_model.h"
@@ -29,15 +29,15 @@ struct SynthSettings {
 
 /// A walk through a synthetic scene as a sequence with exact ground truth: needs no files, renders each frame
 /// when it is loaded. The same settings give the same bits on every run on one device.
-class SyntheticDataset : public Dataset {
+class SyntheticRecording : public Recording {
  public:
   /// Opens a device of its own. Throws InputError where a setting is wrong, gpu::Error where there is no
   /// device.
-  explicit SyntheticDataset(const gpu::DeviceOptions& device, const SynthSettings& settings = {});
+  explicit SyntheticRecording(const gpu::DeviceOptions& device, const SynthSettings& settings = {});
 
   std::string name() const override { return "synthetic"; }
   std::string format() const override { return "synthetic"; }
-  int size() const override { return settings_.frames; }
+  int count() const override { return settings_.frames; }
   /// Square pixels, centred, a horizontal field of view of about 61 degrees.
   Intrinsics intrinsics() const override;
   /// 1: depth is made in metres and never rounded to steps.
@@ -49,7 +49,8 @@ class SyntheticDataset : public Dataset {
   /// The true pose, camera to world, at any time from the first frame to the last.
   Pose true_pose(double seconds) const { return path_.world_to_camera(seconds).inverse(); }
   LoadedFrame load(int i) const override;
-  const Trajectory* ground_truth() const override { return &ground_truth_; }
+  /// true_pose() at the stamps of all frames.
+  const Trajectory& ground_truth() const { return ground_truth_; }
 
   const SynthSettings& settings() const { return settings_; }
   const Scene& scene() const { return scene_; }
