@@ -17,7 +17,8 @@ struct RunStart {
   spdlog::logger& log;
 };
 
-/// What may watch a run while it goes on, and steer it. All calls come from the thread that runs SLAM.
+/// What may watch a run while it goes on, and steer it. begin() and finished() are called by the thread that
+/// runs the sequence, the others by that of SLAM, and never two at once.
 class RunObserver {
  public:
   virtual ~RunObserver() = default;
@@ -28,6 +29,8 @@ class RunObserver {
   virtual void before_frame(Slam&) {}
   /// A frame was fed.
   virtual void fed(const Frame&, const Slam&, const FrameReport&) {}
+  /// A frame could not be read or fed. May come late, but before the next one is fed, or before the end.
+  virtual void skipped(const SkippedFrame&) {}
   /// There will be no more frames, and the results have been saved.
   virtual void finished(const Slam&) {}
 };

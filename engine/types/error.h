@@ -1,5 +1,6 @@
 #pragma once
 
+#include <exception>
 #include <filesystem>
 #include <stdexcept>
 #include <string>
@@ -52,5 +53,10 @@ class DeviceError : public Error {
  private:
   Kind kind_;
 };
+
+/// The exception that is being handled as one line: what happened and what to do about it.
+std::string describe_current_exception();
+/// The same of an exception that was kept.
+std::string describe(const std::exception_ptr& error);
 
 }  // namespace surefield

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "engine/eval/trajectory_metrics.h"
+#include "engine/session/run_sequence.h"
 #include "engine/slam/slam.h"
 #include "engine/sources/frame_stream.h"
 #include "tools/results/map_quality.h"
@@ -13,9 +14,6 @@
 namespace surefield {
 
 inline constexpr double kMegabyte = 1e6;  ///< bytes
-
-/// How a run ended.
-enum class RunEnd { Completed, Interrupted, Failed };
 
 /// Everything that is known about a run when it has ended.
 struct RunRecord {

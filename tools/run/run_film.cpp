@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <chrono>
 
+#include "engine/types/error.h"
 #include "engine/viewer/film_picture.h"
 #include "engine/viewer/view_path.h"
 #include "tools/shared/command.h"

@@ -1,21 +1,19 @@
 #include "tools/run/run_session.h"
 
 #include <fmt/format.h>
-#include <spdlog/sinks/basic_file_sink.h>
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
 #include <chrono>
 #include <exception>
 #include <filesystem>
-#include <new>
 
-#include "engine/formats/map_file.h"
-#include "engine/gpu/error.h"
 #include "engine/io/files.h"
-#include "engine/io/trajectory_file.h"
-#include "engine/session/frame_table.h"
 #include "engine/session/kept_keyframes.h"
+#include "engine/session/results_folder.h"
+#include "engine/session/run_log.h"
+#include "engine/session/run_sequence.h"
+#include "engine/session/save_run.h"
 #include "engine/types/build_info.h"
 #include "engine/types/error.h"
 #include "engine/types/version.h"
@@ -33,111 +31,9 @@ using Clock = std::chrono::steady_clock;
 
 constexpr std::size_t kMostCompared = 60;  // frames whose images are compared; surefield eval --run takes all
 
-/// The folder of the results with its log.
-class Results {
- public:
-  explicit Results(const std::filesystem::path& folder) : folder_(folder), log_("surefield") {
-    std::error_code error;
-    std::filesystem::create_directories(folder, error);
-    if (error) throw InputError(folder, "cannot be created: " + error.message());
-    try {
-      log_.sinks().push_back(
-          std::make_shared<spdlog::sinks::basic_file_sink_mt>((folder / "log.txt").string(), true));
-    } catch (const spdlog::spdlog_ex& problem) {
-      throw InputError(folder, "cannot be written to; check its permissions");
-    }
-    log_.set_pattern("%Y-%m-%d %H:%M:%S.%e %l: %v");
-    log_.flush_on(spdlog::level::info);
-    // A log that cannot be written on is no reason to stop.
-    log_.set_error_handler([](const std::string&) {});
-  }
-
-  /// Writes one file; a failure is logged and kept, so that the other files are written all the same.
-  template <typename Write>
-  void save(const std::string& name, Write write) {
-    try {
-      write(folder_ / name);
-    } catch (...) {
-      problems_.push_back(name + " is not saved: " + describe_current_exception());
-      log_.error(problems_.back());
-    }
-  }
-
-  spdlog::logger& log() { return log_; }
-  const std::filesystem::path& folder() const { return folder_; }
-  const std::vector<std::string>& problems() const { return problems_; }
-
- private:
-  std::filesystem::path folder_;
-  spdlog::logger log_;
-  std::vector<std::string> problems_;
-};
-
 void write_text(const std::filesystem::path& file, const std::string& text) {
   write_file(file, [&](std::ostream& stream) { stream << text; });
 }
-
-/// Feeds the frames of a source to SLAM and keeps account.
-class Feeder {
- public:
-  Feeder(FrameSource& source, Slam& slam, spdlog::logger& log, const RunObservers& observers, bool quiet)
-      : source_(source), slam_(slam), log_(log), observers_(observers), progress_(source.size(), quiet) {}
-
-  /// Until the last frame, an interruption or an error, which is thrown.
-  void feed_all() {
-    while (!interrupted()) {
-      for (RunObserver* observer : observers_) observer->before_frame(slam_);
-      if (interrupted()) return;
-      const std::optional<Frame> frame = source_.next();
-      note_unreadable();
-      if (!frame) return slam_.finish();
-      feed(*frame);
-    }
-  }
-
-  const std::vector<SkippedFrame>& skipped() const { return skipped_; }
-
- private:
-  void feed(const Frame& frame) {
-    try {
-      const FrameReport report = slam_.feed(frame);
-      log_.log(
-          report.lost ? spdlog::level::warn : spdlog::level::info,
-          "frame {}:{}{} loss {:.5f}, valid {:.3f}, tracking {} its {:.0f} ms, mapping {} its {:.0f} ms, "
-          "{} Gaussians",
-          report.index, report.keyframe ? " keyframe," : "", report.lost ? " lost," : "",
-          report.tracking_loss, report.valid_fraction, report.tracking_iterations, report.tracking_ms,
-          report.mapping_iterations, report.mapping_ms, report.gaussians);
-      progress_.fed(report);
-      for (RunObserver* observer : observers_) observer->fed(frame, slam_, report);
-    } catch (const gpu::Error&) {
-      throw;
-    } catch (const std::bad_alloc&) {
-      throw;
-    } catch (const std::exception&) {
-      if (!slam_.usable()) throw;
-      skip({frame.index, describe_current_exception()});
-    }
-  }
-
-  void note_unreadable() {
-    for (; unreadable_ < source_.problems().size(); ++unreadable_) skip(source_.problems()[unreadable_]);
-  }
-
-  void skip(const SkippedFrame& frame) {
-    skipped_.push_back(frame);
-    log_.warn("frame {} skipped: {}", frame.index, frame.reason);
-    progress_.skipped(fmt::format("frame {}: {}", frame.index, frame.reason));
-  }
-
-  FrameSource& source_;
-  Slam& slam_;
-  spdlog::logger& log_;
-  const RunObservers& observers_;
-  Progress progress_;
-  std::size_t unreadable_ = 0;  ///< of source_.problems(), those noted so far
-  std::vector<SkippedFrame> skipped_;
-};
 
 std::optional<TrajectoryMetrics> accuracy(const Trajectory& estimate, const Trajectory* truth) {
   if (!truth) return std::nullopt;
@@ -161,24 +57,21 @@ RunRecord start_record(const RunOptions& options, const FrameSource& source) {
   return record;
 }
 
-/// Feeds the frames to the end, or to an interruption or an error, which is returned; `record` learns how it
-/// went.
-std::exception_ptr feed_frames(RunRecord& record, FrameSource& source, Slam& slam, spdlog::logger& log,
-                               const RunObservers& observers, bool quiet) {
-  std::exception_ptr failure;
-  const Clock::time_point start = Clock::now();
-  Feeder feeder(source, slam, log, observers, quiet);
-  try {
-    feeder.feed_all();
-  } catch (...) {
-    failure = std::current_exception();
-    record.error = describe_current_exception();
+/// Runs the sequence with all that watch it; `record` learns how it went. Returns why it failed, or null.
+std::exception_ptr run(RunRecord& record, FrameSource& source, Slam& slam, spdlog::logger& log,
+                       RunObservers observers, bool quiet) {
+  RunLog lines(log);
+  Progress progress(source.size(), quiet);
+  observers.insert(observers.begin(), {&lines, &progress});
+  const SequenceRun run = run_sequence(source, slam, observers, interrupted);
+  record.end = run.end;
+  record.seconds = run.seconds;
+  record.skipped = run.skipped;
+  if (run.failure) {
+    record.error = describe(run.failure);
     log.error(record.error);
   }
-  record.seconds = seconds_since(start);
-  record.skipped = feeder.skipped();
-  record.end = failure ? RunEnd::Failed : interrupted() ? RunEnd::Interrupted : RunEnd::Completed;
-  return failure;
+  return run.failure;
 }
 
 /// Adds what SLAM and the ground truth, which may be null, say about a run that has ended.
@@ -230,41 +123,25 @@ std::optional<MapQuality> measure_images(const RunRecord& record, const Slam& sl
   return measure_map_quality(input);
 }
 
-/// Saves the map in one format and removes what an earlier run left in another, which is not this run's map.
-void save_map(Results& results, const std::string& format, const GaussianCloud& map) {
-  for (const std::string& other : run_map_formats()) {
-    std::error_code ignored;
-    if (other != format) std::filesystem::remove(results.folder() / ("map." + other), ignored);
-  }
-  results.save("map." + format, [&](const auto& file) { write_map(file, map); });
-}
-
-void save_results(Results& results, RunRecord& record, const Slam& slam, const FrameSource& source,
+void save_results(ResultsFolder& results, RunRecord& record, const Slam& slam, const FrameSource& source,
                   const KeptKeyframes& kept, const std::string& map_format) {
-  const auto save_trajectory = [&](const std::string& name, const Trajectory& trajectory) {
-    results.save(name,
-                 [&](const auto& file) { write_trajectory(file, of_reference_camera(trajectory, source)); });
-  };
-  save_trajectory("trajectory.txt", record.trajectory);
-  save_trajectory("keyframes.txt", record.keyframes);
-  save_map(results, map_format, slam.map());
+  save_run(results, slam, source, map_format);
   if (record.end == RunEnd::Completed) {
     results.save("the image quality",
                  [&](const auto&) { record.images = measure_images(record, slam, source, kept); });
   }
-  results.save("frames.csv", [&](const auto& file) { write_text(file, frames_csv(record.frames)); });
   results.save("metrics.json", [&](const auto& file) { write_text(file, metrics_json(record)); });
 }
 
 /// Tells the log, and unless `quiet` the user, how the run went.
-void report(Results& results, const RunRecord& record, bool quiet) {
+void report(ResultsFolder& results, const RunRecord& record, bool quiet) {
   for (const std::string& message : record.engine.validation_messages) {
     results.log().error("validation: {}", message);
     fmt::print(stderr, "surefield: validation: {}\n", message);
   }
   const std::string summary = run_summary(record);
   results.log().info("summary\n{}", summary);
-  if (!quiet) fmt::print("{}results          {}\n", summary, results.folder().string());
+  if (!quiet) fmt::print("{}results          {}\n", summary, results.path().string());
   std::fflush(stdout);
 }
 
@@ -298,8 +175,8 @@ int run_session(const RunOptions& asked, const RunObservers& observers) {
   FrameStream stream(*dataset.recording, options.selection);
   RunRecord record = start_record(options, stream);
   record.depth_max = settings.depth_max;
-  Results results(options.out);
-  write_text(results.folder() / "config.yaml", effective);
+  ResultsFolder results(options.out);
+  write_text(results.path() / "config.yaml", effective);
 
   const Clock::time_point start = Clock::now();
   Slam slam(settings, stream.intrinsics(), options.engine);
@@ -310,7 +187,7 @@ int run_session(const RunOptions& asked, const RunObservers& observers) {
   RunObservers all = observers;
   all.push_back(&kept);
   for (RunObserver* observer : all) observer->begin({stream, dataset.truth(), settings, results.log()});
-  const std::exception_ptr failure = feed_frames(record, stream, slam, results.log(), all, options.quiet);
+  const std::exception_ptr failure = run(record, stream, slam, results.log(), all, options.quiet);
   complete_record(record, slam, stream, dataset.truth());
   save_results(results, record, slam, stream, kept, options.map_format);
   report(results, record, options.quiet);

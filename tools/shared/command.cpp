@@ -4,7 +4,6 @@
 
 #include <cstdio>
 #include <exception>
-#include <new>
 
 #include "engine/gpu/error.h"
 #include "engine/sources/open_dataset.h"
@@ -21,20 +20,6 @@ int exit_code_of_current_exception() {
     return kDeviceError;
   } catch (...) {
     return kFailure;
-  }
-}
-
-std::string describe_current_exception() {
-  try {
-    throw;
-  } catch (const std::bad_alloc&) {
-    return "out of memory; close other programs, or use fewer frames or a smaller --scale";
-  } catch (const std::exception& error) {
-    std::string message = error.what();
-    for (char& c : message) c = c == '\n' ? ' ' : c;
-    return message;
-  } catch (...) {
-    return "an unknown error";
   }
 }
 

@@ -49,9 +49,6 @@ int run_action(const Action& action);
 /// The exit code for the exception that is being handled.
 int exit_code_of_current_exception();
 
-/// The exception that is being handled as one line: what happened and what to do about it.
-std::string describe_current_exception();
-
 /// Prints "surefield: error: `message`" to stderr.
 void print_error(const std::string& message);
 

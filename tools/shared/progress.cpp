@@ -33,15 +33,16 @@ Progress::~Progress() {
   if (!quiet_ && terminal_) fmt::print(stderr, "\n");
 }
 
-void Progress::fed(const FrameReport& report) {
+void Progress::fed(const Frame&, const Slam&, const FrameReport& report) {
   last_ = report;
   ++fed_;
   if (done_ == 0) first_frame_seconds_ = seconds_since(start_);
   advance();
 }
 
-void Progress::skipped(const std::string& reason) {
-  if (!quiet_) fmt::print(stderr, "{}skipped: {}\n", terminal_ ? kClearLine : "", reason);
+void Progress::skipped(const SkippedFrame& frame) {
+  if (!quiet_)
+    fmt::print(stderr, "{}skipped: frame {}: {}\n", terminal_ ? kClearLine : "", frame.index, frame.reason);
   advance();
 }
 

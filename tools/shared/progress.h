@@ -4,7 +4,7 @@
 #include <optional>
 #include <string>
 
-#include "engine/slam/slam.h"
+#include "engine/session/run_observer.h"
 
 namespace surefield {
 
@@ -13,18 +13,16 @@ double seconds_since(std::chrono::steady_clock::time_point start);
 
 /// Shows on stderr how far a run is: a bar where that is a terminal, else a line for every tenth of the
 /// frames.
-class Progress {
+class Progress : public RunObserver {
  public:
   /// `frames` is how many there will be, the skipped ones included; where nobody knows, the line only counts.
   Progress(std::optional<int> frames, bool quiet);
-  ~Progress();
+  ~Progress() override;
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
 
-  /// A frame was fed.
-  void fed(const FrameReport& report);
-  /// A frame was skipped.
-  void skipped(const std::string& reason);
+  void fed(const Frame& frame, const Slam& slam, const FrameReport& report) override;
+  void skipped(const SkippedFrame& frame) override;
 
  private:
   void advance();

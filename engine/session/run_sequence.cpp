@@ -1,0 +1,153 @@
+#include "engine/session/run_sequence.h"
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <limits>
+#include <mutex>
+#include <new>
+
+#include "engine/slam/slam_thread.h"
+#include "engine/types/error.h"
+
+namespace surefield {
+
+namespace {
+
+/// Whether an error is no matter of one frame.
+bool ends_run(const std::exception_ptr& error) {
+  try {
+    std::rethrow_exception(error);
+  } catch (const DeviceError&) {
+    return true;
+  } catch (const std::bad_alloc&) {
+    return true;
+  } catch (...) {
+    return false;
+  }
+}
+
+/// What the thread of SLAM tells of a run, passed on to the observers with the frames that were skipped.
+class Listener : public SlamListener {
+ public:
+  Listener(const RunObservers& observers, const std::function<bool()>& interrupted)
+      : observers_(observers), interrupted_(interrupted) {}
+
+  bool before_frame(Slam& slam) override {
+    return guard([&] {
+      for (RunObserver* observer : observers_)
+        if (!is_interrupted()) observer->before_frame(slam);
+      return !is_interrupted();
+    });
+  }
+
+  void mapped(const Frame& frame, const Slam& slam, const FrameReport& report) override {
+    guard([&] {
+      tell_unreadable(frame.index);
+      for (RunObserver* observer : observers_) observer->fed(frame, slam, report);
+      return true;
+    });
+  }
+
+  void failed(const Frame& frame, const Slam& slam, const std::exception_ptr& error) override {
+    guard([&] {
+      tell_unreadable(frame.index);
+      if (ends_run(error) || !slam.usable()) std::rethrow_exception(error);
+      skip({frame.index, describe(error)});
+      return true;
+    });
+  }
+
+  bool is_interrupted() const { return interrupted_ && interrupted_(); }
+  /// Whether the thread takes no more frames; asked by the thread that reads.
+  bool ended() const { return ended_; }
+
+  /// Called by the thread that reads: frames that the source has passed over.
+  void note_unreadable(const std::vector<SkippedFrame>& problems) {
+    const std::lock_guard lock(mutex_);
+    unreadable_.insert(unreadable_.end(), problems.begin() + static_cast<std::ptrdiff_t>(unreadable_.size()),
+                       problems.end());
+  }
+
+  /// Tells the observers of unreadable frames up to an index.
+  void tell_unreadable(int up_to) {
+    std::vector<SkippedFrame> due;
+    {
+      const std::lock_guard lock(mutex_);
+      while (told_ < unreadable_.size() && unreadable_[told_].index < up_to)
+        due.push_back(unreadable_[told_++]);
+    }
+    for (const SkippedFrame& frame : due) skip(frame);
+  }
+
+  std::vector<SkippedFrame> take_skipped() {
+    std::sort(skipped_.begin(), skipped_.end(),
+              [](const auto& a, const auto& b) { return a.index < b.index; });
+    return std::move(skipped_);
+  }
+
+ private:
+  /// Does `work` and returns what it returns, whether to go on; notes the end where it says no or throws.
+  template <typename Work>
+  bool guard(Work work) {
+    try {
+      if (work()) return true;
+    } catch (...) {
+      ended_ = true;
+      throw;
+    }
+    ended_ = true;
+    return false;
+  }
+
+  void skip(const SkippedFrame& frame) {
+    skipped_.push_back(frame);
+    for (RunObserver* observer : observers_) observer->skipped(frame);
+  }
+
+  const RunObservers& observers_;
+  const std::function<bool()>& interrupted_;
+  std::vector<SkippedFrame> skipped_;
+  std::atomic<bool> ended_{false};
+
+  std::mutex mutex_;  ///< guards what follows
+  std::vector<SkippedFrame> unreadable_;
+  std::size_t told_ = 0;
+};
+
+/// Has the thread feed all frames of the source and finish, unless it ends before.
+void feed_all(FrameSource& source, SlamThread& thread, Listener& listener) {
+  while (!listener.is_interrupted()) {
+    std::optional<Frame> frame = source.next();
+    listener.note_unreadable(source.problems());
+    if (!frame) return thread.finish();
+    thread.feed(std::move(*frame));
+    if (listener.ended()) return thread.finish();  // throws what has ended it
+  }
+  thread.stop();
+}
+
+}  // namespace
+
+SequenceRun run_sequence(FrameSource& source, Slam& slam, const RunObservers& observers,
+                         const std::function<bool()>& interrupted) {
+  SequenceRun run;
+  Listener listener(observers, interrupted);
+  const auto start = std::chrono::steady_clock::now();
+  try {
+    // The source decodes ahead where that pays; more frames waiting here would only take memory.
+    SlamThread thread(slam, {.policy = QueuePolicy::Block, .capacity = 1}, &listener);
+    feed_all(source, thread, listener);
+  } catch (...) {
+    if (!listener.is_interrupted() || !slam.usable()) run.failure = std::current_exception();
+  }
+  listener.tell_unreadable(std::numeric_limits<int>::max());
+  run.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  run.skipped = listener.take_skipped();
+  run.end = run.failure                 ? RunEnd::Failed
+            : listener.is_interrupted() ? RunEnd::Interrupted
+                                        : RunEnd::Completed;
+  return run;
+}
+
+}  // namespace surefield

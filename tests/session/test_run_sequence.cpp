@@ -1,0 +1,159 @@
+#include <doctest/doctest.h>
+
+#include <atomic>
+
+#include "engine/io/trajectory_file.h"
+#include "engine/session/run_sequence.h"
+#include "engine/session/save_run.h"
+#include "engine/sources/frame_stream.h"
+#include "engine/types/error.h"
+#include "engine/types/gaussian_cloud.h"
+#include "tests/slam/office.h"
+#include "tests/support/input_files.h"
+
+using namespace surefield;
+using namespace surefield::testing;
+
+namespace {
+
+constexpr int kFrames = 6;
+
+/// The office, but some of its frames cannot be read, are of the wrong size, or end the source.
+class DamagedOffice : public FrameSource {
+ public:
+  std::string name() const override { return "office"; }
+  std::string format() const override { return "test"; }
+  Intrinsics intrinsics() const override { return office_.intrinsics(); }
+  std::optional<int> size() const override { return std::nullopt; }
+  const std::vector<SkippedFrame>& problems() const override { return problems_; }
+
+  std::optional<Frame> next() override {
+    if (next_ == unreadable) problems_.push_back({next_++, "damaged"});
+    if (next_ == breaks_at) throw InputError("the camera was pulled out");
+    if (next_ == kFrames) return std::nullopt;
+    Frame frame = *office_.load(next_).frame;
+    if (next_++ == small) frame = resize_frame(frame, 0.5);
+    return frame;
+  }
+
+  int unreadable = -1, small = -1, breaks_at = -1;
+
+ private:
+  const SyntheticRecording office_ = office(kFrames);
+  std::vector<SkippedFrame> problems_;
+  int next_ = 0;
+};
+
+/// Notes what it is told, and throws or stops at a frame.
+class Watcher : public RunObserver {
+ public:
+  void before_frame(Slam&) override { ++before; }
+  void fed(const Frame& frame, const Slam&, const FrameReport&) override {
+    told.push_back(frame.index);
+    if (frame.index == throws_at) throw InputError("the disk is full");
+    if (frame.index == stops_at) stop = true;
+  }
+  void skipped(const SkippedFrame& frame) override { passed_over.push_back(frame.index); }
+
+  int throws_at = -1, stops_at = -1;
+  int before = 0;
+  std::vector<int> told, passed_over;
+  std::atomic<bool> stop{false};
+};
+
+struct Outcome {
+  SequenceRun run;
+  Trajectory trajectory;
+  bool finished = false;
+};
+
+Outcome run(FrameSource& source, Watcher& watcher) {
+  Slam slam(quick_settings(), source.intrinsics(), engine_options());
+  Outcome outcome{run_sequence(source, slam, {&watcher}, [&] { return watcher.stop.load(); }),
+                  slam.trajectory()};
+  outcome.finished = !slam.usable();
+  return outcome;
+}
+
+}  // namespace
+
+TEST_CASE("a sequence is fed to its end, with the bits of feeding it frame by frame") {
+  DamagedOffice source;
+  Watcher watcher;
+  const Outcome outcome = run(source, watcher);
+  CHECK(outcome.run.end == RunEnd::Completed);
+  CHECK(outcome.finished);
+  CHECK(outcome.run.skipped.empty());
+  CHECK(watcher.told == std::vector{0, 1, 2, 3, 4, 5});
+  CHECK(watcher.before == kFrames);
+
+  const SyntheticRecording recording = office(kFrames);
+  Slam slam(quick_settings(), recording.intrinsics(), engine_options());
+  for (int i = 0; i < kFrames; ++i) slam.feed(*recording.load(i).frame);
+  slam.finish();
+  const Trajectory trajectory = slam.trajectory();
+  REQUIRE(outcome.trajectory.size() == trajectory.size());
+  for (std::size_t i = 0; i < trajectory.size(); ++i)
+    CHECK(outcome.trajectory[i].camera_to_world.matrix() == trajectory[i].camera_to_world.matrix());
+}
+
+TEST_CASE("frames that cannot be read or fed are skipped and told, and the run goes on") {
+  DamagedOffice source;
+  source.unreadable = 2;
+  source.small = 4;
+  Watcher watcher;
+  const Outcome outcome = run(source, watcher);
+  CHECK(outcome.run.end == RunEnd::Completed);
+  REQUIRE(outcome.run.skipped.size() == 2);
+  CHECK(outcome.run.skipped[0].index == 2);
+  CHECK(outcome.run.skipped[0].reason == "damaged");
+  CHECK(outcome.run.skipped[1].index == 4);
+  CHECK(watcher.told == std::vector{0, 1, 3, 5});
+  CHECK(watcher.passed_over == std::vector{2, 4});
+  CHECK(outcome.trajectory.size() == 4);
+}
+
+TEST_CASE("an interruption ends a run after the frame in work and does not finish the map") {
+  DamagedOffice source;
+  Watcher watcher;
+  watcher.stops_at = 2;
+  const Outcome outcome = run(source, watcher);
+  CHECK(outcome.run.end == RunEnd::Interrupted);
+  CHECK(outcome.run.failure == nullptr);
+  CHECK_FALSE(outcome.finished);
+  CHECK(watcher.told == std::vector{0, 1, 2});
+}
+
+TEST_CASE("an error of the source or of an observer ends a run, and what was computed is there") {
+  DamagedOffice source;
+  Watcher watcher;
+  SUBCASE("of the source") {
+    source.breaks_at = 3;
+  }
+  SUBCASE("of an observer") {
+    watcher.throws_at = 2;
+  }
+  const Outcome outcome = run(source, watcher);
+  CHECK(outcome.run.end == RunEnd::Failed);
+  REQUIRE(outcome.run.failure);
+  CHECK_THROWS_AS(std::rethrow_exception(outcome.run.failure), InputError);
+  CHECK(outcome.trajectory.size() >= 2);
+  CHECK(outcome.trajectory.size() <= 3);
+}
+
+TEST_CASE("a run is saved with what it has; a file that cannot be written does not keep the others") {
+  const test::TemporaryFolder folder;
+  DamagedOffice source;
+  Slam slam(quick_settings(), source.intrinsics(), engine_options());
+  slam.feed(*source.next());
+  ResultsFolder results(folder / "run");
+  std::filesystem::create_directories(folder / "run/frames.csv/in_the_way");
+  std::ofstream(folder / "run/map.spz") << "of an earlier run";
+  save_run(results, slam, source);
+  CHECK(read_trajectory(folder / "run/trajectory.txt").size() == 1);
+  CHECK(read_trajectory(folder / "run/keyframes.txt").size() == 1);
+  CHECK(std::filesystem::file_size(folder / "run/map.ply") > 1000);
+  CHECK_FALSE(std::filesystem::exists(folder / "run/map.spz"));
+  REQUIRE(results.problems().size() == 1);
+  CHECK(results.problems().front().starts_with("frames.csv is not saved: "));
+}
