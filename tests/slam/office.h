@@ -34,7 +34,7 @@ inline const std::vector<Frame>& office_frames() {
   static const std::vector<Frame> frames = [] {
     const SyntheticRecording dataset = office(8);
     std::vector<Frame> loaded;
-    for (int i = 0; i < dataset.size(); ++i) loaded.push_back(*dataset.load(i).frame);
+    for (int i = 0; i < dataset.count(); ++i) loaded.push_back(*dataset.load(i).frame);
     return loaded;
   }();
   return frames;
