@@ -8,13 +8,13 @@
 #include "engine/places/image_descriptor.h"
 #include "engine/slam/frame_report.h"
 #include "engine/slam/settings.h"
+#include "engine/types/gaussian_cloud.h"
+#include "engine/types/render_images.h"
 #include "engine/types/trajectory.h"
 
 namespace surefield {
 
 struct Frame;
-struct GaussianCloud;
-struct RenderImages;
 
 /// RGB-D SLAM (the paper's system): feed frames in order, get poses and the map.
 ///

@@ -2,6 +2,8 @@
 
 #include "engine/slam/settings.h"
 #include "engine/types/frame.h"
+#include "engine/types/gaussian_cloud.h"
+#include "engine/types/render_images.h"
 
 namespace surefield {
 
