@@ -24,6 +24,8 @@ struct Frame;
 ///   write_trajectory("trajectory.txt", slam.trajectory());
 ///   write_ply("map.ply", slam.map());
 ///
+/// SlamThread (slam_thread.h) feeds without waiting for the map.
+///
 /// Threads: every method may be called from any thread. feed(), finish(), change() and on_revision() take
 /// turns. All others only read; they wait for a frame in work and are let in, in the order in which they ask,
 /// between frames and while feed() or finish() runs a function of the caller. What is returned is a copy.
@@ -42,11 +44,11 @@ class Slam {
   /// Is told the revision() when it has changed.
   using RevisionListener = std::function<void(uint64_t)>;
 
-  /// `intrinsics` are those of the frames that will be fed. Keyframes that look alike are found by
-  /// `descriptor`, instead of by what settings.keyframes.covisibility asks for, unless it is null; it is
-  /// called by the thread that feeds, may not call the Slam, and where it throws the frame changes nothing.
-  /// Throws gpu::Error when no device is usable, and InputError where a file that the settings name cannot be
-  /// used.
+  /// `settings` are in the ranges that SlamSettings::bind() gives their keys, `intrinsics` those of the
+  /// frames that will be fed. Keyframes that look alike are found by `descriptor`, instead of by what
+  /// settings.keyframes.covisibility asks for, unless it is null; it is called by the thread that feeds, may
+  /// not call the Slam, and where it throws the frame changes nothing. Throws gpu::Error when no device is
+  /// usable, and InputError where a file that the settings name cannot be used.
   Slam(const SlamSettings& settings, const Intrinsics& intrinsics, const EngineOptions& options = {},
        std::unique_ptr<ImageDescriptor> descriptor = nullptr);
   ~Slam();
