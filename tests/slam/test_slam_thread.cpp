@@ -6,8 +6,8 @@
 #include <future>
 #include <thread>
 
-#include "engine/io/frame_stream.h"
 #include "engine/slam/slam_thread.h"
+#include "engine/sources/frame_stream.h"
 #include "engine/types/error.h"
 #include "tests/slam/office.h"
 
