@@ -11,6 +11,7 @@
 #include <thread>
 
 #include "engine/slam/slam.h"
+#include "engine/types/frame.h"
 
 namespace surefield {
 
