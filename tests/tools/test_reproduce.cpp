@@ -4,6 +4,7 @@
 #include <cstdlib>
 #include <sstream>
 
+#include "engine/config/config.h"
 #include "engine/formats/triangle_mesh.h"
 #include "engine/io/files.h"
 #include "engine/io/images.h"
