@@ -4,6 +4,7 @@
 #include <set>
 #include <sstream>
 
+#include "engine/config/config.h"
 #include "engine/formats/ply.h"
 #include "engine/io/files.h"
 #include "engine/io/images.h"
