@@ -13,8 +13,10 @@ static surefield::Frame take_frame(int index, const surefield::Intrinsics& camer
                          cv::Mat(camera.height, camera.width, CV_32FC1)};
   for (int v = 0; v < camera.height; ++v) {
     for (int u = 0; u < camera.width; ++u) {
-      const double z = 1.5 + 0.3 * (u + 0.5) / camera.width;  // metres; the wall stands a little askew
-      const double x = (u - camera.cx) / camera.fx * z + 0.01 * index, y = (v - camera.cy) / camera.fy * z;
+      // The wall is z = 1.6 m + x / 4, and the pixel sees it where its ray, x = slope z + 1 cm a frame, does.
+      const double slope = (u - camera.cx) / camera.fx, slid = 0.01 * index;
+      const double z = (1.6 + slid / 4) / (1 - slope / 4);
+      const double x = slope * z + slid, y = (v - camera.cy) / camera.fy * z;
       const auto paint = [&](double a, double b) {
         return cv::saturate_cast<uchar>(128 + 90 * std::sin(a * x) * std::cos(b * y));
       };
