@@ -20,6 +20,7 @@ class MapRebuild {
  private:
   gpu::Device& device_;
   gpu::Pass<passes::gather_words> gather_;
+  gpu::Array<glsl::uint> rebuilt_;  ///< an array of the map in its new order
 };
 
 }  // namespace surefield

@@ -1,4 +1,5 @@
-// surefield bench: how long rendering and its gradients take on fixed scenes.
+// surefield bench: how long rendering and its gradients take on fixed scenes, and what frames ask of the
+// device.
 #include <fmt/format.h>
 
 #include <bit>
@@ -10,6 +11,7 @@
 #include "engine/io/files.h"
 #include "engine/types/error.h"
 #include "tools/bench/bench_compare.h"
+#include "tools/bench/bench_device_use.h"
 #include "tools/bench/bench_report.h"
 #include "tools/bench/cpu_blend.h"
 #include "tools/shared/command.h"
@@ -23,7 +25,8 @@ constexpr const char* kHelp =
     "inside; beside it the same blending in plain C++ on all cores, and what the device can do at best.\n"
     "\n"
     "Scenes: small (20 k Gaussians, 160x120), medium (50 k, 320x240), large (150 k, 640x480), huge (800 k,\n"
-    "1200x680). A camera is a JSON object with width, height, fx, fy, cx, cy and world_to_camera (16 "
+    "1200x680); slam: a short run of SLAM, of which is counted what frames ask of the device. A camera is a "
+    "JSON object with width, height, fx, fy, cx, cy and world_to_camera (16 "
     "numbers,\n"
     "row by row). docs/evaluation.md says what the figures mean.\n"
     "\n"
@@ -31,6 +34,8 @@ constexpr const char* kHelp =
     "  surefield bench --scene medium --json bench.json\n"
     "  surefield bench --map out/desk/map.ply --camera camera.json\n"
     "  surefield bench --compare before.json after.json";
+
+constexpr const char* kSlam = "slam";  // among the names of scenes
 
 /// What the user asks to measure.
 struct BenchOptions {
@@ -58,10 +63,16 @@ TileShape tile_shape(const gpu::Device& device, const std::string& text) {
   return shape;
 }
 
+/// Whether the device use of a SLAM run is counted.
+bool counts_slam(const BenchOptions& options) {
+  return options.map.empty() && (options.scene == "all" || options.scene == kSlam);
+}
+
 /// The scenes to measure; a map from a file is one without a name.
 std::vector<std::string> names_of(const BenchOptions& options) {
   if (!options.map.empty()) return {""};
   if (options.scene == "all") return bench_scene_names();
+  if (options.scene == kSlam) return {};
   return {options.scene};
 }
 
@@ -78,16 +89,24 @@ int run(const BenchOptions& options) {
   const TileShape shape = tile_shape(device, options.tile);
   const BenchMachine machine{device.report(), shape, measure_peak(device)};
   fmt::print("{}", describe(machine));
-  nlohmann::json scenes = nlohmann::json::array();
+  nlohmann::json results = to_json(machine, options.repeat);
+  // After every part, so that an interruption costs one part only.
+  const auto save = [&] {
+    std::fflush(stdout);
+    if (!options.json_file.empty())
+      write_file(options.json_file, [&](std::ostream& out) { out << results.dump(2) << '\n'; });
+  };
+  if (counts_slam(options)) {
+    const DeviceUse use = measure_device_use(options.device);
+    fmt::print("{}", describe(use));
+    results["slam"] = to_json(use);
+    save();
+  }
   for (const std::string& name : names_of(options)) {
     const SceneTimes times = measure_scene(device, shape, make_scene(device, options, name), options.repeat);
     fmt::print("{}", describe(machine, times));
-    std::fflush(stdout);
-    scenes.push_back(to_json(times));
-    // After every scene, so that an interruption costs one scene only.
-    if (!options.json_file.empty())
-      write_file(options.json_file,
-                 [&](std::ostream& out) { out << to_json(machine, options.repeat, scenes).dump(2) << '\n'; });
+    results["scenes"].push_back(to_json(times));
+    save();
   }
   return kSuccess;
 }
@@ -97,8 +116,9 @@ int run(const BenchOptions& options) {
 void add_bench(CLI::App& program, Action& action) {
   auto options = std::make_shared<BenchOptions>();
   CLI::App* command = program.add_subcommand("bench", kHelp);
-  CLI::Option* scene = command->add_option("--scene", options->scene, "small, medium, large, huge or all")
-                           ->capture_default_str();
+  CLI::Option* scene =
+      command->add_option("--scene", options->scene, "small, medium, large, huge, slam or all")
+          ->capture_default_str();
   CLI::Option* map = command->add_option("--map", options->map, "Gaussians to render instead, PLY or SPZ");
   map->excludes(scene)->needs(
       command->add_option("--camera", options->camera, "JSON file: where to see it from"));

@@ -51,6 +51,15 @@ Section read_scene(const nlohmann::json& scene) {
   return section;
 }
 
+/// What frames of the SLAM run ask of the device, on average.
+Section read_slam(const nlohmann::json& slam) {
+  Section section{.title = "slam, a frame", .figures = {}};
+  for (const char* kind : {"tracked", "keyframes"})
+    for (const char* figure : {"submissions", "allocations", "objects", "bytes_uploaded", "bytes_read_back"})
+      section.figures.push_back({fmt::format("{}: {}", kind, figure), slam.at(kind).at(figure).at("mean")});
+  return section;
+}
+
 Benchmark read_benchmark(const std::filesystem::path& file) {
   const JsonObject json(file);
   try {
@@ -62,6 +71,7 @@ Benchmark read_benchmark(const std::filesystem::path& file) {
                         .sections = {{.title = "peak", .figures = {}}}};
     for (const auto& [name, value] : json.at("peak").items())
       benchmark.sections[0].figures.push_back({name, value.get<double>()});
+    if (json.has("slam")) benchmark.sections.push_back(read_slam(json.at("slam")));
     for (const nlohmann::json& scene : json.at("scenes")) benchmark.sections.push_back(read_scene(scene));
     return benchmark;
   } catch (const nlohmann::json::exception& error) {

@@ -66,6 +66,38 @@ std::string step_lines(const BenchMachine& machine, const SceneTimes& times, con
   return text;
 }
 
+/// A figure of DeviceCounters.
+struct UseFigure {
+  const char* name;
+  uint64_t gpu::DeviceCounters::*figure;
+};
+constexpr UseFigure kUseFigures[] = {{"submissions", &gpu::DeviceCounters::submissions},
+                                     {"allocations", &gpu::DeviceCounters::allocations},
+                                     {"objects", &gpu::DeviceCounters::objects},
+                                     {"bytes_uploaded", &gpu::DeviceCounters::bytes_uploaded},
+                                     {"bytes_read_back", &gpu::DeviceCounters::bytes_read_back}};
+
+double mean(const FrameUse& use, const UseFigure& figure) {
+  return ratio(static_cast<double>(use.total.*figure.figure), use.frames);
+}
+
+std::string use_lines(const char* kind, const FrameUse& use) {
+  std::string means = fmt::format("  {:<32}", fmt::format("{}, mean of {}", kind, use.frames));
+  std::string most = fmt::format("  {:<32}", "  at most");
+  for (const UseFigure& figure : kUseFigures) {
+    means += fmt::format("{:>17.1f}", mean(use, figure));
+    most += fmt::format("{:>17}", use.most.*figure.figure);
+  }
+  return means + "\n" + most + "\n";
+}
+
+nlohmann::json to_json(const FrameUse& use) {
+  nlohmann::json result = {{"frames", use.frames}};
+  for (const UseFigure& figure : kUseFigures)
+    result[figure.name] = {{"mean", mean(use, figure)}, {"most", use.most.*figure.figure}};
+  return result;
+}
+
 nlohmann::json to_json(const Times& times) {
   return {{"ms_median", times.milliseconds.median()},
           {"ms_least", times.milliseconds.least()},
@@ -139,7 +171,14 @@ std::string describe(const BenchMachine& machine, const SceneTimes& times) {
   return text;
 }
 
-nlohmann::json to_json(const BenchMachine& machine, int repeat, const nlohmann::json& scenes) {
+std::string describe(const DeviceUse& use) {
+  std::string text =
+      fmt::format("\n{:<34}", fmt::format("slam: {} frames, {} x {}", use.frames, use.width, use.height));
+  for (const UseFigure& figure : kUseFigures) text += fmt::format("{:>17}", figure.name);
+  return text + "\n" + use_lines("tracked frame", use.tracked) + use_lines("keyframe", use.keyframes);
+}
+
+nlohmann::json to_json(const BenchMachine& machine, int repeat) {
   return {
       {"schema", "surefield-bench"},
       {"version", 1},
@@ -153,7 +192,7 @@ nlohmann::json to_json(const BenchMachine& machine, int repeat, const nlohmann::
         {"copy_gb_per_s", machine.peak.copy_gb_per_s},
         {"kernel_copy_gb_per_s", machine.peak.kernel_copy_gb_per_s}}},
       {"repeat", repeat},
-      {"scenes", scenes}};
+      {"scenes", nlohmann::json::array()}};
 }
 
 nlohmann::json to_json(const SceneTimes& times) {
@@ -172,6 +211,14 @@ nlohmann::json to_json(const SceneTimes& times) {
           {"device_bytes", times.device_bytes},
           {"cpp_loops", loops},
           {"steps", steps}};
+}
+
+nlohmann::json to_json(const DeviceUse& use) {
+  return {{"frames", use.frames},
+          {"width", use.width},
+          {"height", use.height},
+          {"tracked", to_json(use.tracked)},
+          {"keyframes", to_json(use.keyframes)}};
 }
 
 }  // namespace surefield

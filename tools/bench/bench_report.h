@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "tools/bench/bench_device_use.h"
 #include "tools/bench/bench_measure.h"
 #include "tools/bench/bench_peak.h"
 
@@ -19,9 +20,14 @@ struct BenchMachine {
 std::string describe(const BenchMachine& machine);
 /// The tables of one scene.
 std::string describe(const BenchMachine& machine, const SceneTimes& times);
+/// The table of what a SLAM run asks of the device.
+std::string describe(const DeviceUse& use);
 
-/// The same for programs (docs/evaluation.md, "Benchmarks"); `scenes` from to_json() of each scene.
-nlohmann::json to_json(const BenchMachine& machine, int repeat, const nlohmann::json& scenes);
+/// The same for programs (docs/evaluation.md, "Benchmarks"); `scenes` is there, and empty.
+nlohmann::json to_json(const BenchMachine& machine, int repeat);
+/// An entry of `scenes`.
 nlohmann::json to_json(const SceneTimes& times);
+/// The object `slam`.
+nlohmann::json to_json(const DeviceUse& use);
 
 }  // namespace surefield

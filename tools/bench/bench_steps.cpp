@@ -76,7 +76,8 @@ MappingSettings still_mapping() {
 }  // namespace
 
 SceneSteps::SceneSteps(gpu::Device& device, const TileShape& shape, const BenchScene& scene)
-    : rasteriser_(device, shape),
+    : device_(device),
+      rasteriser_(device, shape),
       map_(load_map(device, scene.cloud)),
       camera_(device, scene.camera),
       frame_(load_frame(device, with_sensor(rasteriser_, map_, scene))),
@@ -121,7 +122,10 @@ void SceneSteps::track(TrackingMethod method) {
 
 std::vector<BenchStep> SceneSteps::steps() {
   // The losses leave gradients behind that differ from scene to scene.
-  const auto prepare = [this] { rasteriser_.pixel_upstream.upload(upstream_); };
+  const auto prepare = [this] {
+    rasteriser_.pixel_upstream.upload(upstream_);
+    device_.finish_uploads();
+  };
   return {{"forward", 1, [this] { render(Outputs::ColourDepth); }},
           {"forward_all", 1, [this] { render(Outputs::All); }},
           {"forward_pose", 1, [this] { render_and_go_back(Outputs::ColourDepth); }, prepare},

@@ -41,6 +41,7 @@ class SceneSteps {
   void map();
   void track(TrackingMethod method);
 
+  gpu::Device& device_;
   Rasteriser rasteriser_;
   GaussianMap map_;
   CameraVariable camera_;
