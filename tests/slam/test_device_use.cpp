@@ -10,7 +10,7 @@ using namespace surefield;
 
 namespace {
 
-constexpr int kFrames = 30;
+constexpr int kFrames = 18;
 constexpr int kFirstSteady = 12;  // four keyframes, as many as frames are aligned to, have been made
 
 struct FrameUse {
@@ -21,10 +21,11 @@ struct FrameUse {
 SlamSettings quick(TrackingMethod method) {
   SlamSettings settings;
   settings.depth_max = 10;
-  settings.first_iterations = 20;
-  settings.mapping_iterations = 5;
+  settings.first_iterations = 10;
+  settings.mapping_iterations = 4;
   settings.keyframes.interval = 3;
   settings.tracking.method = method;
+  settings.tracking.adam.iterations = settings.tracking.adam.first_iterations = 8;
   return settings;
 }
 
