@@ -7,7 +7,11 @@ set(package_folder ${CMAKE_INSTALL_LIBDIR}/cmake/Surefield)
 install(TARGETS ${installed} EXPORT SurefieldTargets
         LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}
         RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
-install(DIRECTORY ${PROJECT_BINARY_DIR}/include/surefield DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
+get_property(headers GLOBAL PROPERTY surefield_public_headers)
+foreach(header ${headers})
+  get_filename_component(room ${header} DIRECTORY)
+  install(FILES ${PROJECT_BINARY_DIR}/include/surefield/${header} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/surefield/${room})
+endforeach()
 install(EXPORT SurefieldTargets NAMESPACE Surefield:: DESTINATION ${package_folder})
 configure_package_config_file(${CMAKE_CURRENT_LIST_DIR}/SurefieldConfig.cmake.in
   ${PROJECT_BINARY_DIR}/SurefieldConfig.cmake INSTALL_DESTINATION ${package_folder})
