@@ -3,6 +3,7 @@
 #include <atomic>
 
 #include "engine/io/trajectory_file.h"
+#include "engine/session/kept_keyframes.h"
 #include "engine/session/run_sequence.h"
 #include "engine/session/save_run.h"
 #include "engine/sources/frame_stream.h"
@@ -139,6 +140,24 @@ TEST_CASE("an error of the source or of an observer ends a run, and what was com
   CHECK_THROWS_AS(std::rethrow_exception(outcome.run.failure), InputError);
   CHECK(outcome.trajectory.size() >= 2);
   CHECK(outcome.trajectory.size() <= 3);
+}
+
+TEST_CASE("keyframes of a source that cannot be read again are kept, of a recording none") {
+  const SlamSettings settings = quick_settings();
+  spdlog::logger log("test");
+  const auto kept_of = [&](FrameSource& source) {
+    Slam slam(settings, source.intrinsics(), engine_options());
+    KeptKeyframes kept;
+    kept.begin({source, nullptr, settings, log});
+    CHECK(run_sequence(source, slam, {&kept}).end == RunEnd::Completed);
+    std::vector<int> indices;
+    for (const Frame& frame : kept.frames()) indices.push_back(frame.index);
+    return indices;
+  };
+  DamagedOffice live;
+  CHECK(kept_of(live) == std::vector{0, 3});
+  SyntheticRecording recording = office(kFrames);
+  CHECK(kept_of(recording).empty());
 }
 
 TEST_CASE("a run is saved with what it has; a file that cannot be written does not keep the others") {
