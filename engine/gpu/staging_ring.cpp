@@ -143,7 +143,8 @@ void StagingRing::make_room(Lock& lock) {
   if (!uploads_.empty()) submit(VK_NULL_HANDLE);
   const uint64_t oldest = in_flight_.front().submission;
   if (queue_.has_finished(oldest)) {
-    read_.wait(lock);  // somebody is copying a download
+    // Somebody is copying a download, unless it has finished since the ring was last looked through.
+    if (in_flight_.front().readers > 0) read_.wait(lock);
     return;
   }
   lock.unlock();
