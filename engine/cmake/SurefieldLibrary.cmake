@@ -12,6 +12,9 @@ endif()
 if(CMAKE_UNITY_BUILD AND CMAKE_CXX_COMPILER_ID STREQUAL GNU)
   # GCC takes for a header's what a unity file includes, and there such types should have no internal linkage.
   target_compile_options(surefield_options INTERFACE -Wno-subobject-linkage)
+elseif(CMAKE_UNITY_BUILD)
+  # Clang finds names of one file shadowed in another that a unity build joins to it.
+  target_compile_options(surefield_options INTERFACE -Wno-shadow)
 endif()
 if(SUREFIELD_SANITIZERS)
   # The object-size check keeps Eigen from being inlined (12 times slower), and the address sanitizer sees the same.
