@@ -44,11 +44,12 @@ TEST_CASE("keys that apply to one method of tracking lead from their old names t
   SlamSettings settings;
   ConfigSchema schema;
   settings.bind(schema);
-  for (const auto& [old, key] : {std::pair{"first_tracking_iterations", "adam.first_iterations"},
-                                 {"tracking.iterations", "adam.iterations"},
-                                 {"tracking.stop_below", "adam.stop_below"},
-                                 {"tracking.renders", "gauss_newton.renders"},
-                                 {"tracking.reference_weight", "gauss_newton.reference_weight"}}) {
+  for (const auto& renamed : {std::pair{"first_tracking_iterations", "adam.first_iterations"},
+                              {"tracking.iterations", "adam.iterations"},
+                              {"tracking.stop_below", "adam.stop_below"},
+                              {"tracking.renders", "gauss_newton.renders"},
+                              {"tracking.reference_weight", "gauss_newton.reference_weight"}}) {
+    const std::string old = renamed.first, key = renamed.second;
     CAPTURE(old);
     const std::string assignment = std::string(old) + "=1";
     CHECK(test::contains(test::input_error([&] { schema.set(assignment); }),
