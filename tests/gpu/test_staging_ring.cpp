@@ -130,6 +130,31 @@ TEST_CASE("a buffer may go while an upload to it waits or is under way") {
   CHECK(device.validation_messages().empty());
 }
 
+TEST_CASE("the ring fills up and empties while another thread keeps the device busy") {
+  gpu::Device device(small_ring());
+  const testing::Scale scale(device);
+  const auto ones = testing::constant_array(device, "ones", 20000, 1);
+  const auto values = testing::constant_array(device, "values", 20000, 0);
+  std::atomic<bool> done{false};
+  std::thread busy([&] {
+    gpu::Recorder recorder(device);
+    while (!done) {
+      for (int i = 0; i < 20; ++i) scale.record(recorder, ones, values, 20000);
+      recorder.submit();
+    }
+  });
+  gpu::Buffer buffer(device, "buffer", 700);
+  Bytes last;
+  for (unsigned i = 0; i < 3000; ++i) {
+    last = some_bytes(700, i);
+    buffer.upload(last.data(), 0, 700);
+  }
+  CHECK(read(buffer, 0, 700) == last);
+  done = true;
+  busy.join();
+  CHECK(device.validation_messages().empty());
+}
+
 TEST_CASE("several threads share the ring, with transfers larger than it among theirs") {
   for (const uint64_t ring : {kRing, uint64_t{1} << 20}) {
     gpu::DeviceOptions options = small_ring();
