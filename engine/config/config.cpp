@@ -7,7 +7,6 @@
 #include <numeric>
 #include <set>
 #include <sstream>
-#include <stdexcept>
 #include <string_view>
 
 #include "engine/config/config_file.h"
@@ -65,7 +64,7 @@ void ConfigSchema::add_entry(Entry entry) {
   for (auto dot = entry.key.find('.'); dot != std::string::npos; dot = entry.key.find('.', dot + 1)) {
     taken = taken || find(entry.key.substr(0, dot));
   }
-  if (taken) throw std::logic_error("the key " + entry.key + " is added twice, or is a section and a value");
+  if (taken) throw UsageError("the key " + entry.key + " is added twice, or is a section and a value");
   entries_.push_back(std::move(entry));
 }
 
@@ -77,7 +76,7 @@ const ConfigSchema::Entry* ConfigSchema::find(const std::string& key) const {
 
 NumberSetting ConfigSchema::number(const std::string& key) const {
   const Entry* entry = find(key);
-  if (!entry || !entry->number) throw std::logic_error("there is no number " + key);
+  if (!entry || !entry->number) throw UsageError("there is no number " + key);
   NumberSetting setting = entry->number();
   setting.help = entry->help;
   return setting;
@@ -92,13 +91,13 @@ void ConfigSchema::document(const std::string& text) {
                                     [&](const ConfigValue& candidate) { return candidate.key == entry.key; });
     entry.help = value == values.end() ? "" : help_above(lines, value->line, entry.permitted);
     if (entry.help.empty())
-      throw std::logic_error("the key " + entry.key + " must stand below a comment that ends with \"" +
-                             entry.permitted + "\"");
+      throw UsageError("the key " + entry.key + " must stand below a comment that ends with \"" +
+                       entry.permitted + "\"");
   }
 }
 
 void ConfigSchema::renamed(const std::string& old, const std::string& key) {
-  if (find(old) || !find(key)) throw std::logic_error(old + " cannot be an old name of " + key);
+  if (find(old) || !find(key)) throw UsageError(old + " cannot be an old name of " + key);
   renamed_[old] = key;
 }
 

@@ -72,11 +72,11 @@ class ConfigSchema {
 
   /// Takes the help of all keys that have been added from the text of a configuration file: of each key the
   /// comment in the line above it, which says its meaning and unit, and ends with the permitted values in
-  /// brackets where there are any but true and false. Throws std::logic_error naming the key of which the
+  /// brackets where there are any but true and false. Throws UsageError naming the key of which the
   /// text has no such comment.
   void document(const std::string& text);
 
-  /// Tells whoever gives the key `old` that its name is `key`, which has been added. Throws std::logic_error
+  /// Tells whoever gives the key `old` that its name is `key`, which has been added. Throws UsageError
   /// where it has not, or where `old` is a key.
   void renamed(const std::string& old, const std::string& key);
 
@@ -94,7 +94,7 @@ class ConfigSchema {
   /// InputError.
   void set(const std::string& assignment);
 
-  /// The number of this key. Throws std::logic_error where no number has it.
+  /// The number of this key. Throws UsageError where no number has it.
   NumberSetting number(const std::string& key) const;
 
   /// The effective configuration as YAML that load_file accepts: every key in the order in which it was added

@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <charconv>
 #include <optional>
-#include <stdexcept>
 #include <type_traits>
 
 #include "engine/config/config.h"
+#include "engine/types/error.h"
 
 namespace surefield {
 
@@ -127,7 +127,7 @@ void ConfigSchema::add(const std::string& key, std::string* value, const std::ve
 
 void ConfigSchema::add_choice(const std::string& key, const std::vector<std::string>& names,
                               std::function<void(std::size_t)> store, std::function<std::size_t()> load) {
-  if (load() >= names.size()) throw std::logic_error("the default of " + key + " is not among its choices");
+  if (load() >= names.size()) throw UsageError("the default of " + key + " is not among its choices");
   const auto parse = [=](const YAML::Node& node) -> std::string {
     const auto name = node.IsScalar() ? std::find(names.begin(), names.end(), node.Scalar()) : names.end();
     if (name == names.end()) return "one of " + join(names);

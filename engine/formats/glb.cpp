@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <stdexcept>
 
 #include "engine/formats/gaussian_order.h"
 #include "engine/formats/glb_file.h"
 #include "engine/formats/rounded_values.h"
 #include "engine/formats/turned_axes.h"
+#include "engine/types/error.h"
 
 namespace surefield {
 
@@ -85,7 +85,7 @@ nlohmann::json splat_attributes(GlbFile& glb, const GaussianCloud& cloud) {
 }  // namespace
 
 void write_glb(const std::filesystem::path& file, const GaussianCloud& cloud) {
-  if (!cloud.is_consistent()) throw std::logic_error("write_glb: the arrays of the cloud differ in length");
+  if (!cloud.is_consistent()) throw UsageError("write_glb: the arrays of the cloud differ in length");
   const GaussianCloud finite = select(cloud, finite_gaussians(cloud));
   GlbFile glb;
   glb.use_extension(kSplatting);
@@ -103,7 +103,7 @@ void write_glb(const std::filesystem::path& file, const GaussianCloud& cloud) {
 
 void write_glb(const std::filesystem::path& file, const TriangleMesh& mesh) {
   if (!mesh.colours.empty() && mesh.colours.size() != mesh.vertices.size())
-    throw std::logic_error("write_glb: the mesh has more or fewer colours than vertices");
+    throw UsageError("write_glb: the mesh has more or fewer colours than vertices");
   GlbFile glb;
   if (!mesh.triangles.empty()) {
     nlohmann::json material = {{"pbrMetallicRoughness", {{"metallicFactor", 0}, {"roughnessFactor", 1}}}};

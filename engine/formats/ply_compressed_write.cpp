@@ -3,7 +3,6 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -11,6 +10,7 @@
 #include "engine/formats/ply_compressed.h"
 #include "engine/formats/rounded_values.h"
 #include "engine/io/files.h"
+#include "engine/types/error.h"
 
 static_assert(std::endian::native == std::endian::little,
               "PLY files are written in the byte order of the machine");
@@ -126,7 +126,7 @@ std::string packed_harmonics(const GaussianCloud& cloud) {
 
 void write_compressed_ply(const std::filesystem::path& file, const GaussianCloud& unordered) {
   if (!unordered.is_consistent())
-    throw std::logic_error("write_compressed_ply: the arrays of the cloud differ in length");
+    throw UsageError("write_compressed_ply: the arrays of the cloud differ in length");
   std::vector<std::size_t> order = finite_gaussians(unordered);
   sort_along_morton_curve(unordered, order);
   const GaussianCloud cloud = select(unordered, order);

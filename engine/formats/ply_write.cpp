@@ -1,11 +1,11 @@
 #include <bit>
 #include <vector>
 
-#include <stdexcept>
 #include "engine/formats/gaussian_order.h"
 #include "engine/formats/ply.h"
 #include "engine/formats/rounded_values.h"
 #include "engine/io/files.h"
+#include "engine/types/error.h"
 
 static_assert(std::endian::native == std::endian::little,
               "PLY files are written in the byte order of the machine");
@@ -50,7 +50,7 @@ void fill_record(const GaussianCloud& cloud, std::size_t i, std::vector<float>& 
 }  // namespace
 
 void write_ply(const std::filesystem::path& file, const GaussianCloud& cloud) {
-  if (!cloud.is_consistent()) throw std::logic_error("write_ply: the arrays of the cloud differ in length");
+  if (!cloud.is_consistent()) throw UsageError("write_ply: the arrays of the cloud differ in length");
   write_file(file, [&](std::ostream& stream) {
     write_header(stream, cloud);
     std::vector<float> record;
@@ -63,8 +63,7 @@ void write_ply(const std::filesystem::path& file, const GaussianCloud& cloud) {
 }
 
 void write_point_cloud(const std::filesystem::path& file, const GaussianCloud& cloud) {
-  if (!cloud.is_consistent())
-    throw std::logic_error("write_point_cloud: the arrays of the cloud differ in length");
+  if (!cloud.is_consistent()) throw UsageError("write_point_cloud: the arrays of the cloud differ in length");
   const std::vector<std::size_t> finite = finite_gaussians(cloud);
   const auto stride = static_cast<std::size_t>(sh_coefficients(cloud.sh_degree)) * 3;
   write_file(file, [&](std::ostream& stream) {

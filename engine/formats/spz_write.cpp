@@ -3,7 +3,6 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
-#include <stdexcept>
 #include <vector>
 
 #include "engine/formats/gaussian_order.h"
@@ -116,7 +115,7 @@ Bytes harmonics(const GaussianCloud& cloud) {
 }  // namespace
 
 void write_spz(std::ostream& stream, const std::filesystem::path& file, const GaussianCloud& cloud) {
-  if (!cloud.is_consistent()) throw std::logic_error("write_spz: the arrays of the cloud differ in length");
+  if (!cloud.is_consistent()) throw UsageError("write_spz: the arrays of the cloud differ in length");
   if (cloud.size() > std::numeric_limits<uint32_t>::max())
     throw InputError(file, "cannot be written: SPZ holds at most 4294967295 Gaussians");
   const spz::Header header{.count = static_cast<uint32_t>(cloud.size()),

@@ -5,7 +5,6 @@
 #include <cstring>
 #include <limits>
 #include <optional>
-#include <stdexcept>
 
 #include "engine/formats/ply_records.h"
 #include "engine/io/files.h"
@@ -74,10 +73,10 @@ void read_faces(const Path& file, const PlyElement& element, PlyRecordReader& re
 
 void check_mesh(const TriangleMesh& mesh) {
   if (!mesh.colours.empty() && mesh.colours.size() != mesh.vertices.size()) {
-    throw std::logic_error("write_mesh: the mesh has more or fewer colours than vertices");
+    throw UsageError("write_mesh: the mesh has more or fewer colours than vertices");
   }
   if (mesh.vertices.size() > static_cast<std::size_t>(std::numeric_limits<int32_t>::max())) {
-    throw std::logic_error("write_mesh: more vertices than the indices of a PLY file can tell apart");
+    throw UsageError("write_mesh: more vertices than the indices of a PLY file can tell apart");
   }
 }
 

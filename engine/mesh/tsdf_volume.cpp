@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
 #include <unordered_set>
 #include <vector>
 
@@ -59,7 +58,7 @@ void check_settings(const TsdfSettings& settings) {
 void check_view(const DepthView& view) {
   const auto pixels = static_cast<std::size_t>(view.camera.intrinsics.width) * view.camera.intrinsics.height;
   if (view.depth.size() != pixels || (!view.colour.empty() && view.colour.size() != 3 * pixels)) {
-    throw std::invalid_argument("a depth view's images do not have the size of its intrinsics");
+    throw UsageError("a depth view's images do not have the size of its intrinsics");
   }
 }
 
@@ -140,7 +139,7 @@ class BlockToucher {
 
   void touch(const Eigen::Vector3d& point) {
     if (!(point.cwiseAbs().maxCoeff() < kLargestCoordinate - 2 * kBlock)) {
-      throw std::invalid_argument("a depth lies too far from the origin for voxels of this size");
+      throw UsageError("a depth lies too far from the origin for voxels of this size");
     }
     const Eigen::Vector3i voxel = point.array().floor().cast<int>();
     const Coord origin = Coord(voxel.x(), voxel.y(), voxel.z()) & ~(kBlock - 1);

@@ -35,7 +35,7 @@ class TsdfVolume {
 
   /// Adds a view. A voxel is compared with the depth of the pixel that it falls on, along z. Within the
   /// truncation the difference is averaged, with a weight that falls to zero behind the surface; a voxel in
-  /// free space counts as outside, as far as there is a block for it. Throws std::invalid_argument when the
+  /// free space counts as outside, as far as there is a block for it. Throws UsageError when the
   /// images do not have the size of the intrinsics, or hold depths too far away for the voxels to be counted.
   void integrate(const DepthView& view);
 

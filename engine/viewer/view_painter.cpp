@@ -1,7 +1,7 @@
 #include "engine/viewer/view_painter.h"
+#include "engine/types/error.h"
 
 #include <opencv2/imgproc.hpp>
-#include <stdexcept>
 #include <string>
 
 namespace surefield {
@@ -111,7 +111,7 @@ void ViewPainter::set_sensor(const FrameView& images, const Intrinsics& intrinsi
 void ViewPainter::paint(const Camera& camera, const ViewSettings& settings, std::span<const Line> lines) {
   const ViewModeInfo& info = info_of(settings.mode);
   if (info.needs_sensor && sensor_.size.pixels() == 0)
-    throw std::invalid_argument(std::string("the view mode ") + info.name + " needs a frame of the sensor");
+    throw UsageError(std::string("the view mode ") + info.name + " needs a frame of the sensor");
   const glsl::CameraState state = to_device(camera);
   size_ = {state.width, state.height};
   camera_.upload(std::span(&state, 1));

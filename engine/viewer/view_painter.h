@@ -45,7 +45,7 @@ class ViewPainter {
   void set_sensor(const FrameView& images, const Intrinsics& intrinsics);
 
   /// Paints what `camera` sees, with `lines` over it. In modes with `needs_sensor`, the camera's pose must be
-  /// that of the frame; its intrinsics may be others. Throws std::invalid_argument where there is no frame.
+  /// that of the frame; its intrinsics may be others. Throws UsageError where there is no frame.
   void paint(const Camera& camera, const ViewSettings& settings, std::span<const Line> lines = {});
 
   /// The last picture: RGBA bytes, row-major, on the device; and in host memory, CV_8UC3, RGB.

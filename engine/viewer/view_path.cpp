@@ -1,10 +1,10 @@
 #include "engine/viewer/view_path.h"
+#include "engine/types/error.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
-#include <stdexcept>
 
 namespace surefield {
 
@@ -111,15 +111,15 @@ Intrinsics fit_to(const Intrinsics& lens, int width, int height) {
 }
 
 ViewPath::ViewPath(Trajectory keys) : keys_(std::move(keys)) {
-  if (keys_.empty()) throw std::invalid_argument("a path needs a key");
+  if (keys_.empty()) throw UsageError("a path needs a key");
   std::vector<Eigen::Vector3d> velocities, turning_rates;  // between keys
   for (std::size_t i = 0; i < keys_.size(); ++i) {
-    if (!keys_[i].is_finite()) throw std::invalid_argument("a key of a path is not finite");
+    if (!keys_[i].is_finite()) throw UsageError("a key of a path is not finite");
     const Pose& pose = keys_[i].camera_to_world;
     rotations_.emplace_back(Eigen::Quaterniond(pose.linear()).normalized());
     if (i == 0) continue;
     const double seconds = keys_[i].timestamp - keys_[i - 1].timestamp;
-    if (!(seconds > 0)) throw std::invalid_argument("the keys of a path are not in the order of time");
+    if (!(seconds > 0)) throw UsageError("the keys of a path are not in the order of time");
     // The shorter of the two ways.
     if (rotations_[i].dot(rotations_[i - 1]) < 0) rotations_[i].coeffs() *= -1;
     velocities.push_back((pose.translation() - keys_[i - 1].camera_to_world.translation()) / seconds);

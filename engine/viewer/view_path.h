@@ -26,7 +26,7 @@ Intrinsics fit_to(const Intrinsics& lens, int width, int height);
 /// evenly spaced in time.
 class ViewPath {
  public:
-  /// Keys in the order of time, one at least, no two at one time, all finite. Throws std::invalid_argument.
+  /// Keys in the order of time, one at least, no two at one time, all finite. Throws UsageError.
   explicit ViewPath(Trajectory keys);
 
   /// The pose at that time, camera to world; at a key exactly its place. Before the first key it is the

@@ -1,5 +1,6 @@
 #include "engine/config/config.h"
 
+#include "engine/types/error.h"
 #include "tests/support/input_files.h"
 
 using namespace surefield;
@@ -254,8 +255,8 @@ TEST_CASE("a number tells its range, its help and its value") {
   CHECK(number.help == "how fast");
   CHECK_FALSE(number.whole);
   CHECK(schema.number("steps").whole);
-  CHECK_THROWS_AS(schema.number("flag"), std::logic_error);
-  CHECK_THROWS_AS(schema.number("none"), std::logic_error);
+  CHECK_THROWS_AS(schema.number("flag"), UsageError);
+  CHECK_THROWS_AS(schema.number("none"), UsageError);
 }
 
 TEST_CASE("every key must be documented, with the values that it permits") {
@@ -279,7 +280,7 @@ TEST_CASE("every key must be documented, with the values that it permits") {
     std::string text = good;
     text.replace(text.find(part), std::string(part).size(), changed);
     CAPTURE(text);
-    CHECK_THROWS_AS(schema.document(text), std::logic_error);
+    CHECK_THROWS_AS(schema.document(text), UsageError);
   }
 }
 
@@ -293,8 +294,8 @@ TEST_CASE("a key that has been renamed leads to its name, in a file and on a com
   const auto file = folder.write("c.yaml", "output: a\ntracking:\n  colour: [0, 1, 0]\n");
   CHECK(contains(input_error([&] { bound.schema.load_file(file); }),
                  "c.yaml:3: the key tracking.colour has been renamed; use mapping.background"));
-  CHECK_THROWS_AS(bound.schema.renamed("steps", "none"), std::logic_error);
-  CHECK_THROWS_AS(bound.schema.renamed("output", "tracking.iterations"), std::logic_error);
+  CHECK_THROWS_AS(bound.schema.renamed("steps", "none"), UsageError);
+  CHECK_THROWS_AS(bound.schema.renamed("output", "tracking.iterations"), UsageError);
 }
 
 TEST_CASE("mistakes of the programmer are caught when a key is added") {
@@ -302,8 +303,8 @@ TEST_CASE("mistakes of the programmer are caught when a key is added") {
   int value = 1;
   std::string name = "other";
   schema.add("a.b", &value, Range{0, 1});
-  CHECK_THROWS_AS(schema.add("a.b", &value, Range{0, 1}), std::logic_error);
-  CHECK_THROWS_AS(schema.add("a", &value, Range{0, 1}), std::logic_error);
-  CHECK_THROWS_AS(schema.add("a.b.c", &value, Range{0, 1}), std::logic_error);
-  CHECK_THROWS_AS(schema.add("name", &name, {"one", "two"}), std::logic_error);
+  CHECK_THROWS_AS(schema.add("a.b", &value, Range{0, 1}), UsageError);
+  CHECK_THROWS_AS(schema.add("a", &value, Range{0, 1}), UsageError);
+  CHECK_THROWS_AS(schema.add("a.b.c", &value, Range{0, 1}), UsageError);
+  CHECK_THROWS_AS(schema.add("name", &name, {"one", "two"}), UsageError);
 }

@@ -6,6 +6,7 @@
 
 #include "engine/mesh/depth_sampler.h"
 #include "engine/mesh/tsdf_volume.h"
+#include "engine/types/error.h"
 #include "tests/support/input_files.h"
 
 using namespace surefield;
@@ -227,6 +228,6 @@ TEST_CASE("impossible settings and views are refused") {
   TsdfVolume volume;
   Images images = facing_wall(1);
   images.depth.pop_back();
-  CHECK_THROWS_AS(volume.integrate(images.view()), std::invalid_argument);
-  CHECK_THROWS_AS(volume.integrate(facing_wall(1e5).view()), std::invalid_argument);
+  CHECK_THROWS_AS(volume.integrate(images.view()), UsageError);
+  CHECK_THROWS_AS(volume.integrate(facing_wall(1e5).view()), UsageError);
 }

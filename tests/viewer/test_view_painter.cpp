@@ -7,6 +7,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "engine/types/error.h"
 #include "tests/support/device.h"
 #include "tests/viewer/reference_picture.h"
 
@@ -115,7 +116,7 @@ TEST_CASE("an empty map is the background, and a mode that needs a frame says so
   const Camera camera{{.width = 20, .height = 10, .fx = 20, .fy = 20, .cx = 9.5, .cy = 4.5}};
   painter.paint(camera, {.background = {0, 0.6f, 1}});
   CHECK(cv::norm(painter.picture(), cv::Mat(10, 20, CV_8UC3, cv::Scalar(0, 153, 255)), cv::NORM_INF) == 0);
-  CHECK_THROWS_AS(painter.paint(camera, {.mode = ViewMode::Error}), std::invalid_argument);
+  CHECK_THROWS_AS(painter.paint(camera, {.mode = ViewMode::Error}), UsageError);
 }
 
 TEST_CASE("a picture does not depend on those painted before it") {

@@ -1,6 +1,7 @@
 #include <cmath>
 #include <random>
 
+#include "engine/types/error.h"
 #include "engine/viewer/follower.h"
 #include "engine/viewer/view_path.h"
 #include "tests/support/input_files.h"
@@ -112,11 +113,11 @@ TEST_CASE("a path takes the shorter way round, whatever the signs of quaternions
 }
 
 TEST_CASE("a path refuses keys without order, and none at all") {
-  CHECK_THROWS_AS(ViewPath({}), std::invalid_argument);
-  CHECK_THROWS_AS(ViewPath({{1, Pose::Identity()}, {1, Pose::Identity()}}), std::invalid_argument);
+  CHECK_THROWS_AS(ViewPath({}), UsageError);
+  CHECK_THROWS_AS(ViewPath({{1, Pose::Identity()}, {1, Pose::Identity()}}), UsageError);
   Pose unknown = Pose::Identity();
   unknown.translation().x() = NAN;
-  CHECK_THROWS_AS(ViewPath({{1, unknown}}), std::invalid_argument);
+  CHECK_THROWS_AS(ViewPath({{1, unknown}}), UsageError);
   CHECK(ViewPath({{1, pose_of({1, 2, 3}, 1)}}).camera_to_world(7).isApprox(pose_of({1, 2, 3}, 1)));
 }
 
