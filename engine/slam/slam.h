@@ -22,7 +22,7 @@ struct Frame;
 ///   while (auto frame = stream.next()) slam.feed(*frame);
 ///   slam.finish();
 ///   write_trajectory("trajectory.txt", slam.trajectory());
-///   write_ply("map.ply", slam.map());
+///   write_map("map.ply", slam.map());
 ///
 /// SlamThread (slam_thread.h) feeds without waiting for the map.
 ///
