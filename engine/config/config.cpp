@@ -23,6 +23,11 @@ std::string quote(const YAML::Node& node) {
   return node.IsMap() ? "a section" : "a list";
 }
 
+std::string lower_case(std::string text) {
+  for (char& c : text) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c + ('a' - 'A')) : c;
+  return text;
+}
+
 /// Number of insertions, deletions and replacements of characters that turn `a` into `b` (Levenshtein).
 std::size_t edit_distance(std::string_view a, std::string_view b) {
   std::vector<std::size_t> row(b.size() + 1);
@@ -118,9 +123,13 @@ std::string ConfigSchema::apply(const std::string& key, const YAML::Node& value)
   if (const auto found = renamed_.find(key); found != renamed_.end())
     return fmt::format("the key {} has been renamed; use {}", key, found->second);
   if (entries_.empty()) return "unknown key " + key;
-  const auto nearest = std::min_element(
-      entries_.begin(), entries_.end(),
-      [&](const Entry& a, const Entry& b) { return edit_distance(key, a.key) < edit_distance(key, b.key); });
+  // A letter's case is the least that may be wrong: fY is fy and not fx.
+  const auto distance = [name = lower_case(key)](const Entry& entry) {
+    return edit_distance(name, lower_case(entry.key));
+  };
+  const auto nearest =
+      std::min_element(entries_.begin(), entries_.end(),
+                       [&](const Entry& a, const Entry& b) { return distance(a) < distance(b); });
   return fmt::format("unknown key {}; did you mean {}?", key, nearest->key);
 }
 

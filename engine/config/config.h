@@ -63,6 +63,9 @@ class ConfigSchema {
   /// A list of exactly as many numbers as `value` holds now, each within `range`.
   void add(const std::string& key, std::vector<double>* value, Range range);
 
+  /// A list of one of those numbers of numbers.
+  void add(const std::string& key, std::vector<double>* value, Range range, std::vector<std::size_t> sizes);
+
   /// A string out of a list of names.
   void add(const std::string& key, std::string* value, const std::vector<std::string>& names);
 

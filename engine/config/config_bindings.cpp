@@ -8,6 +8,7 @@
 #include <type_traits>
 
 #include "engine/config/config.h"
+#include "engine/io/text_file.h"
 #include "engine/types/error.h"
 
 namespace surefield {
@@ -17,7 +18,8 @@ namespace {
 template <typename T>
 std::optional<T> parse_number(const YAML::Node& node, Range range) {
   if (!node.IsScalar()) return std::nullopt;
-  const std::string& text = node.Scalar();
+  std::string_view text = node.Scalar();
+  if (text.starts_with('+')) text.remove_prefix(1);
   T number{};
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
   if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
@@ -92,7 +94,7 @@ void ConfigSchema::add(const std::string& key, bool* value) {
 
 void ConfigSchema::add(const std::string& key, std::string* value) {
   const auto parse = [value](const YAML::Node& node) -> std::string {
-    if (!node.IsScalar()) return "text";
+    if (!node.IsScalar() || !is_utf8(node.Scalar())) return "text in UTF-8";
     *value = node.Scalar();
     return {};
   };
@@ -100,10 +102,16 @@ void ConfigSchema::add(const std::string& key, std::string* value) {
 }
 
 void ConfigSchema::add(const std::string& key, std::vector<double>* value, Range range) {
-  const std::size_t size = value->size();
+  add(key, value, range, {value->size()});
+}
+
+void ConfigSchema::add(const std::string& key, std::vector<double>* value, Range range,
+                       std::vector<std::size_t> sizes) {
   const auto parse = [=](const YAML::Node& node) -> std::string {
-    const std::string expected = fmt::format("a list of {} numbers {}", size, describe(range));
-    if (!node.IsSequence() || node.size() != size) return expected;
+    const std::string expected =
+        fmt::format("a list of {} numbers {}", fmt::join(sizes, ", "), describe(range));
+    if (!node.IsSequence() || std::find(sizes.begin(), sizes.end(), node.size()) == sizes.end())
+      return expected;
     std::vector<double> numbers;
     for (const YAML::Node& item : node) {
       const auto number = parse_number<double>(item, range);

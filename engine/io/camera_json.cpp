@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "engine/io/files.h"
+#include "engine/io/text_file.h"
 #include "engine/io/images.h"
 
 namespace surefield {
@@ -44,11 +45,10 @@ Intrinsics read_intrinsics(const JsonObject& object, const std::string& width_ke
   return intrinsics;
 }
 
-Pose read_world_to_camera(const JsonObject& object) {
-  constexpr const char* kKey = "world_to_camera";
-  const auto pose = rigid_from_rows(read_rows(object, kKey));
+Pose read_rigid(const JsonObject& object, const std::string& key) {
+  const auto pose = rigid_from_rows(read_rows(object, key));
   if (!pose || !pose->matrix().allFinite())
-    object.fail(kKey, "must be a rotation and a translation, with the last row 0 0 0 1");
+    object.fail(key, "must be a rotation and a translation, with the last row 0 0 0 1");
   return *pose;
 }
 
@@ -56,7 +56,7 @@ Camera read_camera(const std::filesystem::path& file) {
   const JsonObject object(file);
   Camera camera;
   camera.intrinsics = read_intrinsics(object, "width", "height");
-  camera.world_to_camera = read_world_to_camera(object);
+  camera.world_to_camera = read_rigid(object, "world_to_camera");
   return camera;
 }
 

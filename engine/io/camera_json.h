@@ -13,8 +13,8 @@ namespace surefield {
 Intrinsics read_intrinsics(const JsonObject& object, const std::string& width_key,
                            const std::string& height_key);
 
-/// The rigid transform (metres) under "world_to_camera", four rows of four numbers. Throws InputError.
-Pose read_world_to_camera(const JsonObject& object);
+/// The rigid transform under `key`, four rows of four numbers. Throws InputError.
+Pose read_rigid(const JsonObject& object, const std::string& key);
 
 /// Reads a camera from JSON: numbers width, height, fx, fy, cx, cy (pixels) and world_to_camera, four rows of
 /// four numbers (metres). Throws InputError naming the key that is missing or wrong, also where the rotation

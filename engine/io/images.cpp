@@ -1,10 +1,13 @@
 #include "engine/io/images.h"
 
+#include <fmt/format.h>
+
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 #include <string_view>
 #include <vector>
 
+#include "engine/io/encoded_image.h"
 #include "engine/io/files.h"
 #include "engine/types/error.h"
 
@@ -12,28 +15,28 @@ namespace surefield {
 
 namespace {
 
-/// A JPEG without its end marker was cut off; libjpeg would fill the rest with grey and call it a success.
-bool is_truncated_jpeg(std::string_view bytes) {
-  if (!bytes.starts_with("\xff\xd8")) return false;
-  const auto end = bytes.find_last_not_of('\0');
-  return end == std::string_view::npos || end < 3 || bytes.substr(end - 1, 2) != "\xff\xd9";
-}
-
-cv::Mat decode(const std::filesystem::path& file, const std::string& bytes, int flags) {
+/// The decoded pixels as OpenCV has them: BGR, or as they are stored.
+cv::Mat decode_by_opencv(const std::filesystem::path& file, std::string_view bytes, int flags) {
   cv::Mat image;
-  if (!bytes.empty() && !is_truncated_jpeg(bytes)) {
-    try {
-      image = cv::imdecode(std::vector<uchar>(bytes.begin(), bytes.end()), flags);
-    } catch (const cv::Exception&) {
-      image.release();
-    }
+  try {
+    if (!bytes.empty()) image = cv::imdecode(std::vector<uchar>(bytes.begin(), bytes.end()), flags);
+  } catch (const cv::Exception&) {
+    image.release();
   }
   if (image.empty()) throw InputError(file, "is not a readable image; it may be damaged or cut off");
   return image;
 }
 
-cv::Mat decode(const std::filesystem::path& file, int flags) {
-  return decode(file, read_file(file), flags);
+cv::Mat decode(const std::filesystem::path& file, const std::string& bytes, int flags,
+               cv::Size expected = {}) {
+  const auto header = read_image_header(bytes);
+  if (header) {
+    require_size(file, header->size, expected);
+    require_plausible(*header, bytes.size(), file);
+  }
+  cv::Mat image = decode_by_opencv(file, is_png(bytes) ? pixels_of_png(bytes, file) : bytes, flags);
+  require_size(file, image.size(), expected);
+  return image;
 }
 
 void encode(const std::filesystem::path& file, const char* extension, const cv::Mat& image,
@@ -62,21 +65,38 @@ cv::Mat to_8bit(const cv::Mat& image) {
 
 }  // namespace
 
-cv::Mat read_colour(const std::filesystem::path& file) {
-  return decode_colour(read_file(file), file);
+void require_size(const std::filesystem::path& file, cv::Size size, cv::Size expected) {
+  if (expected.empty() || size == expected) return;
+  throw InputError(file, fmt::format("is {} x {} pixels, the calibration is for {} x {}", size.width,
+                                     size.height, expected.width, expected.height));
 }
 
-cv::Mat decode_colour(const std::string& bytes, const std::filesystem::path& name) {
+cv::Mat read_colour(const std::filesystem::path& file, cv::Size expected) {
+  return decode_colour(read_regular_file(file), file, expected);
+}
+
+cv::Mat decode_colour(const std::string& bytes, const std::filesystem::path& name, cv::Size expected) {
+  const auto header = read_image_header(bytes);
+  if (header && header->kind == ImageHeader::Kind::Jpeg) {
+    require_size(name, header->size, expected);
+    require_plausible(*header, bytes.size(), name);
+    cv::Mat image = decode_jpeg(bytes, name);
+    if (!image.empty()) return image;
+  }
   // The calibration is that of the stored pixels, so a rotation noted in the file must not be applied.
-  cv::Mat image = decode(name, bytes, cv::IMREAD_COLOR | cv::IMREAD_IGNORE_ORIENTATION);
+  cv::Mat image = decode(name, bytes, cv::IMREAD_COLOR | cv::IMREAD_IGNORE_ORIENTATION, expected);
   cv::cvtColor(image, image, cv::COLOR_BGR2RGB);
   return image;
 }
 
-cv::Mat read_depth(const std::filesystem::path& file, const DepthEncoding& encoding) {
-  const cv::Mat stored = decode(file, cv::IMREAD_UNCHANGED);
-  if (stored.type() != CV_16UC1)
-    throw InputError(file, "is no depth image; 16 bits and one channel are needed");
+cv::Mat read_depth(const std::filesystem::path& file, const DepthEncoding& encoding, cv::Size expected) {
+  const cv::Mat stored = decode(file, read_regular_file(file), cv::IMREAD_UNCHANGED, expected);
+  if (stored.type() != CV_16UC1) {
+    throw InputError(file, fmt::format("is no depth image: 16 bits and one channel are needed, it has {} bits "
+                                       "and {} channel{}",
+                                       8 * stored.elemSize1(), stored.channels(),
+                                       stored.channels() == 1 ? "" : "s"));
+  }
   return depth_in_metres(stored, encoding);
 }
 
@@ -101,7 +121,7 @@ void write_tiff(const std::filesystem::path& file, const cv::Mat& image) {
 }
 
 cv::Mat read_tiff(const std::filesystem::path& file) {
-  cv::Mat image = decode(file, cv::IMREAD_UNCHANGED);
+  cv::Mat image = decode(file, read_file(file), cv::IMREAD_UNCHANGED);
   if (image.type() != CV_32FC1 && image.type() != CV_32FC3) {
     throw InputError(file, "is no 32-bit float image of 1 or 3 channels");
   }

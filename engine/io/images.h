@@ -22,18 +22,22 @@ struct DepthEncoding {
 };
 
 /// Reads an 8-bit colour image as CV_8UC3, RGB. Throws InputError when the file is missing or damaged,
-/// truncated JPEG files included.
-cv::Mat read_colour(const std::filesystem::path& file);
+/// truncated JPEG files included. `expected`, where it is given, is the size that it must have; of another one nothing
+/// is decoded.
+cv::Mat read_colour(const std::filesystem::path& file, cv::Size expected = {});
 
 /// The same from the `bytes` of an image file; `name` is what errors call it.
-cv::Mat decode_colour(const std::string& bytes, const std::filesystem::path& name);
+cv::Mat decode_colour(const std::string& bytes, const std::filesystem::path& name, cv::Size expected = {});
+
+/// Throws InputError, naming `file`, where an image has not the size of the calibration.
+void require_size(const std::filesystem::path& file, cv::Size size, cv::Size expected);
 
 /// The numbers of a stored depth image, CV_16UC1, as CV_32FC1, metres, 0 where invalid.
 cv::Mat depth_in_metres(const cv::Mat& stored, const DepthEncoding& encoding);
 
 /// Reads a 16-bit depth PNG as CV_32FC1, metres, 0 where invalid. Throws InputError when the file is missing,
-/// damaged or not 16-bit with one channel.
-cv::Mat read_depth(const std::filesystem::path& file, const DepthEncoding& encoding);
+/// damaged or not 16-bit with one channel. `expected` as for colour.
+cv::Mat read_depth(const std::filesystem::path& file, const DepthEncoding& encoding, cv::Size expected = {});
 
 /// Writes a CV_32FC1 or CV_32FC3 (RGB) image as an uncompressed 32-bit float TIFF; every bit survives, NaN
 /// included. Throws InputError when the type is another or the file cannot be written.

@@ -1,5 +1,7 @@
 #include "engine/io/onnx_file.h"
 
+#include <fmt/format.h>
+
 #include <opencv2/core/utils/logger.hpp>
 #include <optional>
 #include <set>
@@ -11,6 +13,8 @@
 namespace surefield {
 
 namespace {
+
+constexpr double kMostPerByte = 2;  // values; those of 4 bits are the smallest that ONNX knows
 
 /// A field of a protobuf message: a number, or bytes (text, or a message of its own).
 struct Field {
@@ -49,6 +53,12 @@ class Message {
     field.bytes = rest_.substr(0, size);
     rest_.remove_prefix(size);
     return field;
+  }
+
+  /// A number of a packed field; nullopt as above.
+  std::optional<uint64_t> number() {
+    const uint64_t value = varint();
+    return damaged_ ? std::nullopt : std::optional(value);
   }
 
  private:
@@ -107,6 +117,40 @@ std::vector<OnnxInput> parse_inputs(std::string_view model) {
   return inputs;
 }
 
+/// The numbers of a repeated field, which may stand one by one or packed into one run of bytes.
+std::vector<uint64_t> numbers(std::string_view message, int number) {
+  std::vector<uint64_t> found;
+  for (const Field& each : fields(message, number)) {
+    if (each.bytes.empty()) {
+      found.push_back(each.value);
+    } else {
+      for (Message packed(each.bytes); const auto value = packed.number();) found.push_back(*value);
+    }
+  }
+  return found;
+}
+
+/// Of a TensorProto the sizes are 1, and its values, whatever their type, are in the message itself, unless
+/// they are in another file (14). OpenCV takes memory, and reads, for as many as the sizes say.
+void check_tensor(const std::filesystem::path& file, std::string_view tensor) {
+  if (!numbers(tensor, 14).empty()) return;
+  double values = 1;
+  for (uint64_t size : numbers(tensor, 1)) values *= static_cast<double>(static_cast<int64_t>(size));
+  if (values < 0 || values > kMostPerByte * static_cast<double>(tensor.size())) {
+    throw InputError(file, fmt::format("is damaged: its constant {} is to have {:g} values in {} bytes",
+                                       field(tensor, 8), values, tensor.size()));
+  }
+}
+
+/// Checks the constants (5) of a graph, and those (of attributes, 5) that its nodes (1) carry.
+void check_tensors(const std::filesystem::path& file, std::string_view model) {
+  const std::string_view graph = field(model, 7);
+  for (const Field& constant : fields(graph, 5)) check_tensor(file, constant.bytes);
+  for (const Field& node : fields(graph, 1))
+    for (const Field& attribute : fields(node.bytes, 5))
+      for (const Field& tensor : fields(attribute.bytes, 5)) check_tensor(file, tensor.bytes);
+}
+
 }  // namespace
 
 std::string first_line(const cv::Exception& error) {
@@ -116,6 +160,7 @@ std::string first_line(const cv::Exception& error) {
 
 OnnxNetwork read_onnx(const std::filesystem::path& file) {
   const std::string bytes = read_file(file);
+  check_tensors(file, bytes);
   OnnxNetwork network;
   // OpenCV would print what it throws as well.
   const auto level = cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);

@@ -3,16 +3,16 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <limits>
+#include <span>
 
 #include "engine/io/files.h"
+#include "engine/io/pose_numbers.h"
+#include "engine/io/text_file.h"
 #include "engine/types/error.h"
 
 namespace surefield {
 
 namespace {
-
-constexpr double kSmallestQuaternion = 1e-6;
 
 StampedPose parse_pose(const std::filesystem::path& file, const TextLine& line) {
   const auto numbers = parse_numbers(line.text);
@@ -20,22 +20,7 @@ StampedPose parse_pose(const std::filesystem::path& file, const TextLine& line) 
     throw InputError(file, line.number,
                      "expected \"timestamp tx ty tz qx qy qz qw\" (8 numbers, TUM format)");
   }
-  const std::vector<double>& n = *numbers;
-  StampedPose pose;
-  pose.timestamp = n[0];
-  const Eigen::Vector3d translation(n[1], n[2], n[3]);
-  Eigen::Quaterniond rotation(n[7], n[4], n[5], n[6]);
-  if (!translation.allFinite() || !rotation.coeffs().allFinite()) {
-    pose.camera_to_world.matrix().setConstant(std::numeric_limits<double>::quiet_NaN());
-    return pose;
-  }
-  const double norm = rotation.norm();
-  if (!(norm > kSmallestQuaternion && std::isfinite(norm))) {
-    throw InputError(file, line.number, "the quaternion qx qy qz qw has no direction; it must be a rotation");
-  }
-  pose.camera_to_world.linear() = rotation.normalized().toRotationMatrix();
-  pose.camera_to_world.translation() = translation;
-  return pose;
+  return {numbers->front(), pose_from_quaternion({file, line.number}, std::span(*numbers).subspan(1))};
 }
 
 std::string format_pose(const StampedPose& pose) {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "engine/io/files.h"
+#include "engine/io/text_file.h"
 #include "engine/places/built_in_vocabulary.h"
 #include "engine/types/error.h"
 

@@ -1,5 +1,7 @@
 #include "engine/sources/camera_file.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -17,13 +19,44 @@ constexpr double kLargestPixel = 1e6;
 constexpr double kSmallestUnit = 1e-9;  // metres
 constexpr double kMissing = std::numeric_limits<double>::quiet_NaN();
 
+struct KnownCamera {
+  const char* name;
+  RecordedCamera camera;
+};
+
+const std::vector<KnownCamera>& known_cameras() {
+  using enum LensDistortion::Model;
+  static const std::vector<KnownCamera> cameras = {
+      {"freiburg1",
+       {{640, 480, 517.3, 516.5, 318.6, 255.3},
+        {RadialTangential, {0.2624, -0.9531, -0.0054, 0.0026, 1.1633}},
+        kTumDepthUnit}},
+      {"freiburg2",
+       {{640, 480, 520.9, 521.0, 325.1, 249.7},
+        {RadialTangential, {0.2312, -0.7849, -0.0033, -0.0001, 0.9172}},
+        kTumDepthUnit}},
+      {"freiburg3", {{640, 480, 535.4, 539.2, 320.1, 247.6}, {}, kTumDepthUnit}},
+      {"icl", {{640, 480, 481.2, 480.0, 319.5, 239.5}, {}, kTumDepthUnit}},
+  };
+  return cameras;
+}
+
+/// The number of coefficients that OpenCV has a model for, so that no list of another length is taken for
+/// one.
+void check_distortion(const std::filesystem::path& file, const LensDistortion& distortion) {
+  const std::size_t count = distortion.coefficients.size();
+  if (distortion.model == LensDistortion::Model::Fisheye && count != 4 && count != 0) {
+    throw InputError(file,
+                     fmt::format("distortion has {} numbers, a fisheye lens has 4: k1 k2 k3 k4", count));
+  }
+}
+
 }  // namespace
 
 RecordedCamera read_camera_file(const std::filesystem::path& file) {
   RecordedCamera camera;
   Intrinsics& k = camera.intrinsics;
   k.fx = k.fy = k.cx = k.cy = camera.depth_unit = kMissing;
-  camera.distortion.assign(5, 0.0);
   ConfigSchema schema;
   schema.add("width", &k.width, Range{1, kLargestSide});
   schema.add("height", &k.height, Range{1, kLargestSide});
@@ -31,7 +64,10 @@ RecordedCamera read_camera_file(const std::filesystem::path& file) {
   schema.add("fy", &k.fy, Range{1e-3, kLargestPixel});
   schema.add("cx", &k.cx, Range{-kLargestPixel, kLargestPixel});
   schema.add("cy", &k.cy, Range{-kLargestPixel, kLargestPixel});
-  schema.add("distortion", &camera.distortion, Range{-1e3, 1e3});
+  schema.add("distortion", &camera.distortion.coefficients, Range{-1e3, 1e3}, {0, 4, 5, 8, 12, 14});
+  schema.add("distortion_model", &camera.distortion.model,
+             Choices<LensDistortion::Model>{{"radtan", LensDistortion::Model::RadialTangential},
+                                            {"fisheye", LensDistortion::Model::Fisheye}});
   schema.add("depth_unit", &camera.depth_unit, Range{kSmallestUnit, 1e3});
   schema.load_file(file);
   const auto require = [&](const char* key, double value) {
@@ -45,10 +81,25 @@ RecordedCamera read_camera_file(const std::filesystem::path& file) {
   if ((k.width == 0) != (k.height == 0)) {
     throw InputError(file, "width and height are given both or not at all");
   }
-  const bool plain = std::all_of(camera.distortion.begin(), camera.distortion.end(),
-                                 [](double coefficient) { return coefficient == 0; });
-  if (plain) camera.distortion.clear();
+  check_distortion(file, camera.distortion);
+  std::vector<double>& coefficients = camera.distortion.coefficients;
+  if (std::all_of(coefficients.begin(), coefficients.end(), [](double value) { return value == 0; }) &&
+      camera.distortion.model == LensDistortion::Model::RadialTangential)
+    coefficients.clear();
   return camera;
+}
+
+RecordedCamera known_camera(const std::string& name) {
+  for (const KnownCamera& known : known_cameras())
+    if (name == known.name) return known.camera;
+  throw InputError(fmt::format("there is no known camera \"{}\"; there are {}", name,
+                               fmt::join(known_camera_names(), ", ")));
+}
+
+std::vector<std::string> known_camera_names() {
+  std::vector<std::string> names;
+  for (const KnownCamera& known : known_cameras()) names.emplace_back(known.name);
+  return names;
 }
 
 }  // namespace surefield

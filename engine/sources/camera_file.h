@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 #include <vector>
 
 #include "engine/types/camera.h"
@@ -10,16 +11,37 @@ namespace surefield {
 /// The name of the calibration file that own recordings bring.
 inline constexpr const char* kCameraFile = "camera.yaml";
 
+/// How a lens departs from a pinhole, in OpenCV's terms.
+struct LensDistortion {
+  enum class Model {
+    RadialTangential,  ///< k1 k2 p1 p2, then k3, then k4 k5 k6, then s1 s2 s3 s4, then tx ty: 4, 5, 8, 12 or
+                       ///< 14
+    Fisheye            ///< k1 k2 k3 k4, also called equidistant or Kannala-Brandt
+  };
+  Model model = Model::RadialTangential;
+  std::vector<double> coefficients;  ///< empty where the images have none
+
+  bool empty() const { return coefficients.empty(); }
+};
+
 /// The camera of a recording: colour and depth are registered to it.
 struct RecordedCamera {
-  Intrinsics intrinsics;           ///< width and height are 0 where the file leaves them out
-  std::vector<double> distortion;  ///< OpenCV's k1 k2 p1 p2 k3; empty where the images have none
-  double depth_unit = 0;           ///< metres for one step of the depth images
+  Intrinsics intrinsics;  ///< width and height are 0 where nobody has said them
+  LensDistortion distortion;
+  double depth_unit = 0;  ///< metres for one step of the depth images
 };
 
 /// Reads camera.yaml: fx, fy, cx, cy (pixels, centres at integers) and depth_unit (metres for one step);
-/// optionally width and height (pixels, both or none) and distortion [k1, k2, p1, p2, k3]. Throws InputError
-/// naming the key that is missing, unknown or wrong.
+/// optionally width and height (pixels, both or none), distortion (a list as in LensDistortion) and
+/// distortion_model, "radtan" or "fisheye". Throws InputError naming the key that is missing, unknown or
+/// wrong.
 RecordedCamera read_camera_file(const std::filesystem::path& file);
+
+/// A published calibration by its name in known_camera_names(). Throws InputError where there is none of that
+/// name.
+RecordedCamera known_camera(const std::string& name);
+
+/// "freiburg1", "freiburg2", "freiburg3" (TUM's benchmark) and "icl" (ICL-NUIM).
+std::vector<std::string> known_camera_names();
 
 }  // namespace surefield

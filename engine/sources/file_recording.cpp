@@ -2,47 +2,64 @@
 
 #include <fmt/format.h>
 
+#include <iterator>
+#include <new>
 #include <opencv2/calib3d.hpp>
 #include <opencv2/imgproc.hpp>
 #include <utility>
 
 #include "engine/io/files.h"
 #include "engine/types/error.h"
+#include "engine/types/median.h"
 
 namespace surefield {
 
 namespace {
 
-std::filesystem::path numbered_path(const std::filesystem::path& folder, const NumberedName& name,
-                                    int number) {
-  return folder / fmt::format("{}{:06}{}", name.prefix, number, name.suffix);
+constexpr std::size_t kLargestGap =
+    20;  // times as many numbers as there are images; the numbers are stamps then
+
+cv::Size size_of(const Intrinsics& camera) {
+  return {camera.width, camera.height};
+}
+
+/// Adds the numbers that lack. Where there would be very many the numbers are no count but stamps, and none
+/// lacks.
+void fill_gaps(std::map<int, StoredFrame>& frames) {
+  std::vector<double> steps;
+  for (auto frame = std::next(frames.begin()); frame != frames.end(); ++frame)
+    steps.push_back(frame->first - std::prev(frame)->first);
+  if (steps.empty()) return;
+  const int step = static_cast<int>(median(steps));
+  const int first = frames.begin()->first, last = frames.rbegin()->first;
+  if (static_cast<std::size_t>(last / step - first / step) >= kLargestGap * frames.size()) return;
+  for (int number = first; number < last - step; number += step) frames.try_emplace(number);
 }
 
 }  // namespace
 
-std::vector<StoredFrame> numbered_frames(const std::filesystem::path& folder, const NumberedName& colour,
-                                         const NumberedName& depth) {
-  const auto colours = numbered_files(folder, colour.prefix, colour.suffix);
-  std::vector<StoredFrame> frames;
-  if (colours.empty()) return frames;
-  for (int number = colours.begin()->first; number <= colours.rbegin()->first; ++number) {
-    frames.push_back({static_cast<double>(number), numbered_path(folder, colour, number),
-                      numbered_path(folder, depth, number)});
-  }
-  return frames;
-}
-
-void require_size(const std::filesystem::path& file, const cv::Mat& image, const Intrinsics& expected) {
-  if (image.cols == expected.width && image.rows == expected.height) return;
-  throw InputError(file, fmt::format("is {} x {} pixels, the calibration is for {} x {}", image.cols,
-                                     image.rows, expected.width, expected.height));
+std::vector<StoredFrame> numbered_frames(const NumberedFolder& folder) {
+  std::map<int, StoredFrame> frames;
+  for (const auto* images : {&folder.colours, &folder.depths})
+    for (const auto& [number, file] : *images) frames.try_emplace(number);
+  if (frames.empty()) return {};
+  if (folder.fill_gaps) fill_gaps(frames);
+  const auto find = [](const auto& images, int number, const auto& name) {
+    const auto found = images.find(number);
+    return found != images.end() ? found->second : name(number);
+  };
+  std::vector<StoredFrame> list;
+  for (const auto& [number, frame] : frames)
+    list.push_back({static_cast<double>(number), find(folder.colours, number, folder.colour_name),
+                    find(folder.depths, number, folder.depth_name)});
+  return list;
 }
 
 cv::Size stored_size(const std::vector<StoredFrame>& frames) {
   std::string problem = "no frame";
   for (const StoredFrame& frame : frames) {
     try {
-      return read_depth(frame.depth, {}).size();
+      return read_depth(find_spelling(frame.depth), {}).size();
     } catch (const InputError& error) {
       problem = error.what();
     }
@@ -54,41 +71,50 @@ FileRecording::FileRecording(StoredSequence sequence) : sequence_(std::move(sequ
   if (sequence_.distortion.empty()) return;
   const Intrinsics& k = sequence_.intrinsics;
   const cv::Matx33d camera(k.fx, 0, k.cx, 0, k.fy, k.cy, 0, 0, 1);
-  cv::initUndistortRectifyMap(camera, sequence_.distortion, cv::noArray(), camera,
-                              cv::Size(k.width, k.height), CV_32FC1, undistortion_x_, undistortion_y_);
+  const auto& coefficients = sequence_.distortion.coefficients;
+  if (sequence_.distortion.model == LensDistortion::Model::Fisheye) {
+    cv::fisheye::initUndistortRectifyMap(camera, coefficients, cv::Matx33d::eye(), camera, size_of(k),
+                                         CV_32FC1, undistortion_x_, undistortion_y_);
+  } else {
+    cv::initUndistortRectifyMap(camera, coefficients, cv::noArray(), camera, size_of(k), CV_32FC1,
+                                undistortion_x_, undistortion_y_);
+  }
 }
 
 LoadedFrame FileRecording::load(int i) const {
-  const StoredFrame& stored = sequence_.frames.at(static_cast<std::size_t>(i));
-  LoadedFrame loaded;
   try {
-    Frame frame;
-    frame.index = i;
-    frame.timestamp = stored.timestamp;
-    frame.colour = load_colour(stored.colour);
-    frame.depth = load_depth(stored.depth);
-    if (!undistortion_x_.empty()) undistort(frame);
-    loaded.frame = std::move(frame);
-  } catch (const InputError& error) {
-    loaded.problem = error.what();
+    return {read_frame(i), ""};
+  } catch (const std::bad_alloc&) {
+    throw;
+  } catch (const std::exception&) {
+    return {std::nullopt, describe_current_exception()};
   }
-  return loaded;
+}
+
+Frame FileRecording::read_frame(int i) const {
+  const StoredFrame& stored = sequence_.frames.at(static_cast<std::size_t>(i));
+  Frame frame;
+  frame.index = i;
+  frame.timestamp = stored.timestamp;
+  frame.colour = load_colour(find_spelling(stored.colour));
+  frame.depth = load_depth(find_spelling(stored.depth));
+  if (!undistortion_x_.empty()) undistort(frame);
+  return frame;
 }
 
 cv::Mat FileRecording::load_colour(const std::filesystem::path& file) const {
+  const cv::Size size = size_of(sequence_.intrinsics);
+  if (!sequence_.resize_colour) return read_colour(file, size);
   cv::Mat colour = read_colour(file);
-  if (sequence_.resize_colour) {
-    cv::resize(colour, colour, cv::Size(sequence_.intrinsics.width, sequence_.intrinsics.height), 0, 0,
-               cv::INTER_AREA);
-  }
-  require_size(file, colour, sequence_.intrinsics);
+  cv::resize(colour, colour, size, 0, 0, cv::INTER_AREA);
   return colour;
 }
 
 cv::Mat FileRecording::load_depth(const std::filesystem::path& file) const {
-  const cv::Mat depth = read_depth(file, sequence_.depth_encoding);
-  require_size(file, depth, sequence_.registration ? sequence_.registration->depth : sequence_.intrinsics);
-  return sequence_.registration ? register_depth(depth, *sequence_.registration) : depth;
+  const auto& registration = sequence_.registration;
+  const cv::Size size = size_of(registration ? registration->depth : sequence_.intrinsics);
+  const cv::Mat depth = read_depth(file, sequence_.depth_encoding, size);
+  return registration ? register_depth(depth, *registration) : depth;
 }
 
 void FileRecording::undistort(Frame& frame) const {

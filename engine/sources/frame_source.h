@@ -42,8 +42,15 @@ class FrameSource {
   /// problems(); what stops the source altogether is thrown.
   virtual std::optional<Frame> next() = 0;
 
+  /// There will be no more frames: has next() return nullopt from now on, also where it waits. May be called
+  /// from any thread, at any time; where a source does nothing, it is left to end by itself.
+  virtual void stop() {}
+
   /// The frames that next() has passed over so far, in order.
   virtual const std::vector<SkippedFrame>& problems() const = 0;
+
+  /// What the source has taken for granted because nothing said so, one line each: which camera, which unit.
+  virtual std::vector<std::string> assumptions() const { return {}; }
 
   /// Things the user should know that do not stop the run, one line each.
   virtual std::vector<std::string> warnings() const { return {}; }

@@ -6,6 +6,7 @@
 #include <condition_variable>
 #include <deque>
 #include <exception>
+#include <iterator>
 #include <mutex>
 #include <new>
 #include <thread>
@@ -78,11 +79,7 @@ struct FrameStream::Decoder {
         thread([this] { run(); }) {}
 
   ~Decoder() {
-    {
-      const std::lock_guard lock(mutex);
-      stopping = true;
-    }
-    changed.notify_all();
+    stop();
     thread.join();
   }
 
@@ -149,10 +146,21 @@ struct FrameStream::Decoder {
     return true;
   }
 
+  void stop() {
+    {
+      const std::lock_guard lock(mutex);
+      stopping = true;
+    }
+    changed.notify_all();
+    // A source that is read in order may be waiting for its next frame.
+    if (in_order) in_order->stop();
+  }
+
   /// Waits for the next entry; nullopt after the last.
   std::optional<Decoded> pop() {
     std::unique_lock lock(mutex);
-    changed.wait(lock, [&] { return finished || !queue.empty(); });
+    changed.wait(lock, [&] { return stopping || finished || !queue.empty(); });
+    if (stopping) return std::nullopt;
     if (queue.empty()) {
       if (failure) std::rethrow_exception(failure);
       return std::nullopt;
@@ -163,12 +171,20 @@ struct FrameStream::Decoder {
     return decoded;
   }
 
+  /// Called by the consumer.
+  void give_up_if_hopeless() const {
+    if (any_given || selection.hopeless == 0 || std::ssize(problems) < selection.hopeless) return;
+    throw InputError(
+        fmt::format("none of the first {} frames can be read: {}", problems.size(), problems.front().reason));
+  }
+
   const FrameSource& source;
   FrameSource* const in_order;
   const FrameSelection selection;
   const std::optional<int> count;
   const Intrinsics intrinsics;
   std::vector<SkippedFrame> problems;  ///< only the consumer touches it
+  bool any_given = false;              ///< so this
   int position = 0;                    ///< of the source that is read in order; only the thread touches it
 
   std::mutex mutex;  ///< guards what follows
@@ -191,10 +207,23 @@ FrameStream::FrameStream(FrameSource& source, const FrameSelection& selection)
 
 FrameStream::~FrameStream() = default;
 
+void FrameStream::stop() {
+  decoder_->stop();
+}
+
+bool FrameStream::idle_within(std::chrono::milliseconds patience) const {
+  std::unique_lock lock(decoder_->mutex);
+  return decoder_->changed.wait_for(lock, patience, [&] { return decoder_->finished; });
+}
+
 std::optional<Frame> FrameStream::next() {
   while (std::optional<Decoded> decoded = decoder_->pop()) {
-    if (decoded->loaded.frame) return std::move(decoded->loaded.frame);
+    if (decoded->loaded.frame) {
+      decoder_->any_given = true;
+      return std::move(decoded->loaded.frame);
+    }
     decoder_->problems.push_back({decoded->index, std::move(decoded->loaded.problem)});
+    decoder_->give_up_if_hopeless();
   }
   return std::nullopt;
 }
@@ -217,6 +246,10 @@ std::optional<int> FrameStream::size() const {
 
 const std::vector<SkippedFrame>& FrameStream::problems() const {
   return decoder_->problems;
+}
+
+std::vector<std::string> FrameStream::assumptions() const {
+  return decoder_->source.assumptions();
 }
 
 std::vector<std::string> FrameStream::warnings() const {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <memory>
 #include <optional>
 #include <string>
@@ -17,6 +18,8 @@ struct FrameSelection {
   int frames = 0;    ///< how many frames to stream at most; 0 for all
   double scale = 1;  ///< size of the streamed images relative to the originals, in (0, 1]
   int ahead = 4;     ///< frames decoded ahead of the consumer, at most
+  int hopeless =
+      0;  ///< gives up after so many frames that cannot be read before the first that can; 0: never
 };
 
 /// Streams selected frames of a source in order, resized, decoded ahead on a thread of its own. One consumer.
@@ -43,10 +46,15 @@ class FrameStream : public FrameSource {
   Intrinsics intrinsics() const override;
   /// Number of frames selected, the unreadable ones included; nullopt where the source's is not known.
   std::optional<int> size() const override;
-  /// Rethrows what stops the decoder altogether, such as lack of memory, after the frames before it.
+  void stop() override;
+  /// Waits until no frame is being read; false where that takes longer, as from a disk that does not answer.
+  bool idle_within(std::chrono::milliseconds patience) const;
+  /// Throws InputError where it gives up. Rethrows what stops the decoder altogether, such as lack of memory,
+  /// after the frames before it.
   std::optional<Frame> next() override;
   /// Of the selected frames.
   const std::vector<SkippedFrame>& problems() const override;
+  std::vector<std::string> assumptions() const override;
   std::vector<std::string> warnings() const override;
   Pose tracked_to_reference() const override;
   /// The source's: all of its frames, at their original size.

@@ -7,12 +7,10 @@
 // the camera has fy = +480 and a pose P becomes F P F: a rotation again, and the room the right way round.
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <cmath>
 #include <optional>
-#include <sstream>
 
 #include "engine/io/files.h"
-#include "engine/io/trajectory_file.h"
+#include "engine/io/trajectory_formats.h"
 #include "engine/sources/layouts.h"
 #include "engine/types/error.h"
 
@@ -20,34 +18,16 @@ namespace surefield {
 
 namespace {
 
-constexpr Intrinsics kCamera = {640, 480, 481.2, 480.0, 319.5, 239.5};
-constexpr const char* kList = "associations.txt";
-
-/// One line: two stamps, each before its file; which of them is colour, the folders tell.
-StoredFrame parse_line(const std::filesystem::path& file, const TextLine& line) {
-  std::istringstream text(line.text);
-  double stamps[2] = {};
-  std::string names[2];
-  std::string rest;
-  const bool complete = static_cast<bool>(text >> stamps[0] >> names[0] >> stamps[1] >> names[1]);
-  const bool colour_first = names[0].starts_with("rgb");
-  const bool one_of_each = colour_first != names[1].starts_with("rgb");
-  if (!complete || text >> rest || !one_of_each || !std::isfinite(stamps[0]) || !std::isfinite(stamps[1])) {
-    throw InputError(file, line.number, "expected \"number depth/n.png number rgb/n.png\"");
-  }
-  const int colour = colour_first ? 0 : 1;
-  return {stamps[colour], file.parent_path() / names[colour], file.parent_path() / names[1 - colour]};
-}
+constexpr const char* kTruthExtension = ".freiburg";
 
 std::optional<std::filesystem::path> find_truth(const std::filesystem::path& folder) {
   std::vector<std::filesystem::path> found;
-  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
-    if (entry.path().extension() == ".freiburg") found.push_back(entry.path());
-  }
+  for (const std::filesystem::path& file : list_folder(folder))
+    if (file.extension() == kTruthExtension) found.push_back(file);
   if (found.size() > 1)
     throw InputError(folder, "holds several *.freiburg trajectories; keep the one that fits");
   if (!found.empty()) return found.front();
-  if (std::filesystem::exists(folder / "groundtruth.txt")) return folder / "groundtruth.txt";
+  if (file_exists(folder / "groundtruth.txt")) return folder / "groundtruth.txt";
   return std::nullopt;
 }
 
@@ -62,23 +42,33 @@ Trajectory unmirrored(Trajectory trajectory) {
 
 }  // namespace
 
-bool is_icl(const std::filesystem::path& folder) {
-  return std::filesystem::exists(folder / kList) && !std::filesystem::exists(folder / "rgb.txt");
+bool may_be_icl(const std::filesystem::path& folder) {
+  return find_pair_list(folder) && !file_exists(folder / "rgb.txt");
 }
 
-StoredSequence read_icl_sequence(const std::filesystem::path& folder) {
+bool is_icl(const std::filesystem::path& folder) {
+  if (!may_be_icl(folder) || file_exists(folder / kCameraFile)) return false;
+  const auto files = list_folder(folder);
+  return std::any_of(files.begin(), files.end(),
+                     [](const auto& file) { return file.extension() == kTruthExtension; });
+}
+
+StoredSequence read_icl_sequence(const std::filesystem::path& folder, const DatasetOptions& options) {
   StoredSequence sequence;
   sequence.name = folder.filename().string();
   sequence.format = "icl";
-  sequence.intrinsics = kCamera;
-  sequence.depth_encoding.unit = kTumDepthUnit;
-  for (const TextLine& line : read_lines(folder / kList)) {
-    sequence.frames.push_back(parse_line(folder / kList, line));
+  sequence.frames = read_pair_list(*find_pair_list(folder), sequence);
+  if (const auto camera = own_camera(folder, options, sequence)) {
+    use_camera(*camera, sequence);
+  } else {
+    use_camera(known_camera("icl"), sequence);
+    sequence.assumptions.push_back("the camera is that of ICL-NUIM, and its world is mirrored (y up)");
   }
-  if (sequence.frames.empty()) throw InputError(folder / kList, "lists no image");
-  std::stable_sort(sequence.frames.begin(), sequence.frames.end(),
-                   [](const StoredFrame& a, const StoredFrame& b) { return a.timestamp < b.timestamp; });
-  if (const auto truth = find_truth(folder)) sequence.ground_truth = unmirrored(read_trajectory(*truth));
+  read_truth(sequence, [&] {
+    const auto file = find_truth(folder);
+    return file ? unmirrored(read_any_trajectory(*file, {.stamps = stamps_of(sequence)}).poses)
+                : Trajectory{};
+  });
   return sequence;
 }
 

@@ -1,9 +1,13 @@
 #include "engine/sources/open_dataset.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <utility>
 
+#include "engine/io/file_names.h"
+#include "engine/io/files.h"
 #include "engine/sources/file_recording.h"
 #include "engine/sources/layouts.h"
 #include "engine/types/error.h"
@@ -12,36 +16,81 @@ namespace surefield {
 
 namespace {
 
+constexpr double kNearestPose = 0.02;  // seconds between a frame and its true pose
+
+/// "12.5 to 40" of stamps that are sorted, or nearly so.
+std::string range_text(double first, double last) {
+  return fmt::format("{:.2f} to {:.2f}", first, last);
+}
+
+/// Warns of true poses of which none is near a frame.
+void check_truth(StoredSequence& sequence) {
+  if (!sequence.ground_truth) return;
+  std::vector<double> stamps;
+  for (const StampedPose& pose : *sequence.ground_truth)
+    if (pose.is_finite()) stamps.push_back(pose.timestamp);
+  std::sort(stamps.begin(), stamps.end());
+  if (stamps.empty()) {
+    sequence.warnings.push_back("the ground truth knows no pose");
+    return;
+  }
+  for (const StoredFrame& frame : sequence.frames) {
+    const auto next = std::lower_bound(stamps.begin(), stamps.end(), frame.timestamp - kNearestPose);
+    if (next != stamps.end() && *next <= frame.timestamp + kNearestPose) return;
+  }
+  const double first = sequence.frames.front().timestamp, last = sequence.frames.back().timestamp;
+  sequence.warnings.push_back(fmt::format(
+      "no pose of the ground truth is near a frame: its stamps are {} s, those of the frames {} s; the "
+      "clocks "
+      "differ by {:.2f} s",
+      range_text(stamps.front(), stamps.back()), range_text(first, last), first - stamps.front()));
+}
+
+/// Warns of stamps that repeat or go back.
+void check_order(StoredSequence& sequence) {
+  std::size_t repeated = 0;
+  const auto& frames = sequence.frames;
+  for (std::size_t i = 1; i < frames.size(); ++i)
+    repeated += frames[i].timestamp == frames[i - 1].timestamp ? 1 : 0;
+  if (repeated > 0)
+    sequence.warnings.push_back(
+        fmt::format("{} of {} frames have the time stamp of the frame before", repeated, frames.size()));
+}
+
+/// Says what is odd about the stamps of the frames and of the true poses.
+void note_stamps(StoredSequence& sequence) {
+  check_order(sequence);
+  check_truth(sequence);
+}
+
+using Test = bool (*)(const std::filesystem::path&);
+
 struct Layout {
   const char* format;
   const char* looked_for;
-  bool (*fits)(const std::filesystem::path&);
-  Dataset (*open)(const std::filesystem::path&, double depth_delay);
+  Test fits;
+  Dataset (*open)(const std::filesystem::path&, const DatasetOptions&);
+  Test may_fit = fits;  ///< where the user says that it has this layout
 };
 
-Dataset dataset_of(StoredSequence sequence) {
+template <StoredSequence (*Read)(const std::filesystem::path&, const DatasetOptions&)>
+Dataset open_files(const std::filesystem::path& folder, const DatasetOptions& options) {
+  StoredSequence sequence = Read(folder, options);
+  if (options.depth_unit) sequence.depth_encoding.unit = *options.depth_unit;
+  note_stamps(sequence);
   Dataset dataset;
   dataset.ground_truth = std::move(sequence.ground_truth);
   dataset.recording = std::make_unique<FileRecording>(std::move(sequence));
   return dataset;
 }
 
-template <StoredSequence (*Read)(const std::filesystem::path&)>
-Dataset open_files(const std::filesystem::path& folder, double) {
-  return dataset_of(Read(folder));
-}
-
-Dataset open_tum(const std::filesystem::path& folder, double depth_delay) {
-  return dataset_of(read_tum_sequence(folder, depth_delay));
-}
-
 constexpr std::array<Layout, 7> kLayouts = {{
-    {"tum", kTumLayout, is_tum, open_tum},
+    {"tum", kTumLayout, is_tum, open_files<read_tum_sequence>},
     {"replica", kReplicaLayout, is_replica, open_files<read_replica_sequence>},
     {"sevenscenes", kSevenScenesLayout, is_sevenscenes, open_files<read_sevenscenes_sequence>},
     {"scannet", kScanNetLayout, is_scannet, open_files<read_scannet_sequence>},
-    {"scannet", kSensLayout, is_sens, [](const auto& path, double) { return open_sens(path); }},
-    {"icl", kIclLayout, is_icl, open_files<read_icl_sequence>},
+    {"scannet", kSensLayout, is_sens, open_sens},
+    {"icl", kIclLayout, is_icl, open_files<read_icl_sequence>, may_be_icl},
     {"plain", kPlainLayout, is_plain, open_files<read_plain_sequence>},
 }};
 
@@ -61,6 +110,32 @@ std::string describe_layouts(const std::string& format) {
   return join(list, "; ");
 }
 
+/// Throws InputError where a dataset can be neither in that path nor that path itself.
+void require_folder(const std::filesystem::path& path) {
+  if (!file_exists(path)) throw InputError(path, "there is no such folder; give the folder of the sequence");
+  if (folder_exists(path) || is_sens(path)) return;
+  const std::string extension = lower_extension(path);
+  for (const char* packed : {".zip", ".tar", ".tgz", ".gz", ".7z", ".bz2", ".xz"})
+    if (extension == packed)
+      throw InputError(path, "is an archive; unpack it and give the folder of the sequence");
+  for (const char* log : {".bag", ".db3", ".mcap", ".oni", ".klg", ".svo"})
+    if (extension == log)
+      throw InputError(path,
+                       "is a recording of a kind that is not read yet; export its images (docs/datasets.md)");
+  throw InputError(path, "is a file; give the folder of the sequence (or a .sens file)");
+}
+
+/// Names a folder in this one that has a layout, as where an archive was unpacked into a folder of its name.
+std::string hint_below(const std::filesystem::path& path) {
+  for (const std::filesystem::path& below : list_folder(path)) {
+    if (!folder_exists(below)) continue;
+    for (const Layout& layout : kLayouts)
+      if (layout.fits(below))
+        return fmt::format("; {} in it has that of {}: give it", below.filename().string(), layout.format);
+  }
+  return {};
+}
+
 const Layout& find_layout(const std::filesystem::path& path, const std::string& format) {
   const std::vector<std::string> formats = dataset_formats();
   if (format != "auto" && std::find(formats.begin(), formats.end(), format) == formats.end()) {
@@ -68,11 +143,13 @@ const Layout& find_layout(const std::filesystem::path& path, const std::string& 
   }
   std::vector<const Layout*> found;
   for (const Layout& layout : kLayouts) {
-    if ((format == "auto" || format == layout.format) && layout.fits(path)) found.push_back(&layout);
+    if (format == "auto" ? layout.fits(path) : format == layout.format && layout.may_fit(path))
+      found.push_back(&layout);
   }
   if (found.size() == 1) return *found.front();
   if (found.empty() && format == "auto") {
-    throw InputError(path, "no known dataset layout in this folder (" + describe_layouts(format) + ")");
+    throw InputError(path,
+                     "no known dataset layout here (" + describe_layouts(format) + ")" + hint_below(path));
   }
   if (found.empty()) {
     throw InputError(path, "is no sequence of format " + format + " (" + describe_layouts(format) + ")");
@@ -92,12 +169,12 @@ std::vector<std::string> dataset_formats() {
   return formats;
 }
 
-Dataset open_dataset(const std::filesystem::path& path, const std::string& format, double depth_delay) {
-  if (!std::filesystem::exists(path)) {
-    throw InputError(path, "there is no such folder; give the folder of the sequence");
-  }
-  const std::filesystem::path resolved = std::filesystem::canonical(path);
-  return find_layout(resolved, format).open(resolved, depth_delay);
+Dataset open_dataset(const std::filesystem::path& path, const DatasetOptions& options) {
+  require_folder(path);
+  std::error_code error;
+  const std::filesystem::path resolved = std::filesystem::canonical(path, error);
+  if (error) throw InputError(path, "cannot be opened: " + error.message());
+  return find_layout(resolved, options.format).open(resolved, options);
 }
 
 }  // namespace surefield

@@ -22,6 +22,9 @@ class Recording : public FrameSource {
   /// Number of frames, the unreadable ones included.
   virtual int count() const = 0;
 
+  /// Colour images of the sequence that became no frame, because no depth image belongs to them.
+  virtual int left_out() const { return 0; }
+
   /// Metres for one step of the stored depth images.
   virtual double depth_unit() const = 0;
 

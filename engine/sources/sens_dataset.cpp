@@ -3,6 +3,8 @@
 
 #include <utility>
 
+#include "engine/io/file_names.h"
+#include "engine/io/files.h"
 #include "engine/sources/layouts.h"
 #include "engine/sources/sens_file.h"
 #include "engine/types/error.h"
@@ -15,13 +17,12 @@ constexpr const char* kExtension = ".sens";
 
 std::vector<std::filesystem::path> sens_files(const std::filesystem::path& path) {
   std::vector<std::filesystem::path> files;
-  if (!std::filesystem::is_directory(path)) {
-    if (path.extension() == kExtension) files.push_back(path);
+  if (!folder_exists(path)) {
+    if (lower_extension(path) == kExtension) files.push_back(path);
     return files;
   }
-  for (const auto& entry : std::filesystem::directory_iterator(path)) {
-    if (entry.path().extension() == kExtension) files.push_back(entry.path());
-  }
+  for (const std::filesystem::path& file : list_folder(path))
+    if (lower_extension(file) == kExtension) files.push_back(file);
   return files;
 }
 
@@ -61,12 +62,14 @@ bool is_sens(const std::filesystem::path& path) {
   return !is_scannet(path) && !sens_files(path).empty();
 }
 
-Dataset open_sens(const std::filesystem::path& path) {
+Dataset open_sens(const std::filesystem::path& path, const DatasetOptions& options) {
   const auto files = sens_files(path);
   if (files.size() > 1) {
     throw InputError(path, fmt::format("holds {} .sens files; give the path of one of them", files.size()));
   }
   SensFile sens = read_sens_file(files.front());
+  if (!options.camera.empty()) throw InputError(path, "brings its camera itself; none can be assumed for it");
+  if (options.depth_unit) sens.depth_unit = *options.depth_unit;
   Trajectory truth;
   for (std::size_t i = 0; i < sens.frames.size(); ++i)
     truth.push_back({static_cast<double>(i), sens.frames[i].camera_to_world});

@@ -10,11 +10,11 @@
 
 #include <array>
 #include <bit>
+#include <limits>
 #include <opencv2/imgproc.hpp>
 
-#include "engine/io/files.h"
 #include "engine/io/images.h"
-#include "engine/sources/file_recording.h"
+#include "engine/io/text_file.h"
 #include "engine/types/error.h"
 
 namespace surefield {
@@ -25,13 +25,15 @@ static_assert(std::endian::native == std::endian::little, "the numbers of the fi
 
 constexpr uint32_t kVersion = 4;
 constexpr uint64_t kLongestName = 4096;
+constexpr std::size_t kMostInflated = 1032;  // bytes that zlib makes of one
 
 /// Reads numbers one after the other.
 class Reader {
  public:
-  explicit Reader(const std::filesystem::path& file)
-      : file_(file), stream_(file, std::ios::binary), size_(std::filesystem::file_size(file)) {
-    if (!stream_) throw InputError(file, "cannot be opened; check its permissions");
+  explicit Reader(const std::filesystem::path& file) : file_(file), stream_(file, std::ios::binary) {
+    std::error_code error;
+    size_ = std::filesystem::file_size(file, error);
+    if (!stream_ || error) throw InputError(file, "cannot be opened; check its permissions");
   }
 
   template <typename T>
@@ -48,6 +50,7 @@ class Reader {
   }
 
   std::string text(uint64_t length) {
+    if (length > left()) end_too_early();
     std::string text(length, '\0');
     bytes(text.data(), length);
     return text;
@@ -60,14 +63,16 @@ class Reader {
 
  private:
   void bytes(char* to, uint64_t count) {
-    if (!stream_.read(to, static_cast<std::streamsize>(count))) {
-      throw InputError(file_, "ends too early; it may not have been downloaded completely");
-    }
+    if (!stream_.read(to, static_cast<std::streamsize>(count))) end_too_early();
+  }
+
+  [[noreturn]] void end_too_early() const {
+    throw InputError(file_, "ends too early; it may not have been downloaded completely");
   }
 
   const std::filesystem::path& file_;
   std::ifstream stream_;
-  uint64_t size_;
+  uint64_t size_ = 0;
 };
 
 constexpr uint64_t kFrameHeader = 16 * sizeof(float) + 4 * sizeof(uint64_t);
@@ -130,9 +135,11 @@ void check_compression(const SensFile& sens) {
 void find_frames(Reader& reader, SensFile& sens) {
   for (uint64_t i = 0; i < sens.promised && reader.left() >= kFrameHeader; ++i) {
     SensFrame frame;
-    const auto pose = rigid_from_rows(reader.matrix());
-    if (!pose) throw InputError(sens.file, fmt::format("is damaged: the pose of frame {} is not rigid", i));
-    frame.camera_to_world = *pose;
+    if (const auto pose = rigid_from_rows(reader.matrix())) {
+      frame.camera_to_world = *pose;
+    } else {
+      frame.camera_to_world.matrix().setConstant(std::numeric_limits<double>::quiet_NaN());
+    }
     reader.number<uint64_t>();  // stamps, of a unit that the format leaves open
     reader.number<uint64_t>();
     frame.colour_bytes = reader.number<uint64_t>();
@@ -148,14 +155,18 @@ void find_frames(Reader& reader, SensFile& sens) {
 /// `bytes` as an image of `type` and the size of `camera`.
 cv::Mat raw_image(const std::string& bytes, const Intrinsics& camera, int type,
                   const std::filesystem::path& name) {
+  const std::size_t expected = static_cast<std::size_t>(camera.width) * camera.height * CV_ELEM_SIZE(type);
+  if (bytes.size() != expected) throw InputError(name, "has the wrong size in bytes");
   cv::Mat image(camera.height, camera.width, type);
-  if (bytes.size() != image.total() * image.elemSize()) throw InputError(name, "has the wrong size in bytes");
   std::copy(bytes.begin(), bytes.end(), reinterpret_cast<char*>(image.data));
   return image;
 }
 
 cv::Mat inflate(const std::string& bytes, const Intrinsics& camera, const std::filesystem::path& name) {
-  std::string steps(static_cast<std::size_t>(camera.width) * camera.height * sizeof(uint16_t), '\0');
+  const std::size_t expected = static_cast<std::size_t>(camera.width) * camera.height * sizeof(uint16_t);
+  if (expected > kMostInflated * bytes.size())
+    throw InputError(name, "has too few bytes for a depth image of that size");
+  std::string steps(expected, '\0');
   uLongf size = static_cast<uLongf>(steps.size());
   const int result =
       uncompress(reinterpret_cast<Bytef*>(steps.data()), &size, reinterpret_cast<const Bytef*>(bytes.data()),
@@ -186,9 +197,9 @@ Frame read_sens_frame(const SensFile& sens, int i) {
   Frame frame;
   frame.index = i;
   frame.timestamp = i;
-  frame.colour = sens.colour_compression == SensColour::Raw ? raw_image(colour, sens.colour, CV_8UC3, name)
-                                                            : decode_colour(colour, name);
-  require_size(name, frame.colour, sens.colour);
+  frame.colour = sens.colour_compression == SensColour::Raw
+                     ? raw_image(colour, sens.colour, CV_8UC3, name)
+                     : decode_colour(colour, name, cv::Size(sens.colour.width, sens.colour.height));
   cv::resize(frame.colour, frame.colour, cv::Size(sens.depth.width, sens.depth.height), 0, 0, cv::INTER_AREA);
   const cv::Mat steps = sens.depth_compression == SensDepth::Raw
                             ? raw_image(depth, sens.depth, CV_16UC1, name)

@@ -3,7 +3,7 @@
 // poses describe the depth camera.
 #include <fmt/format.h>
 
-#include "engine/io/files.h"
+#include "engine/io/text_file.h"
 #include "engine/sources/layouts.h"
 #include "engine/types/error.h"
 
@@ -16,7 +16,9 @@ constexpr Intrinsics kDepthCamera = {640, 480, 585, 585, 320, 240};
 // worse.
 constexpr Intrinsics kColourCamera = {640, 480, 525, 525, 320, 240};
 constexpr DepthEncoding kDepthEncoding = {0.001, 65535};
-constexpr const char* kPrefix = "frame-";
+const NumberedName kColourName = {"frame-", ".color"};
+const NumberedName kDepthName = {"frame-", ".depth"};
+const NumberedName kPoseName = {"frame-", ".pose"};
 
 /// The published calibration of the Kinect that recorded the sequences.
 Eigen::Isometry3d depth_to_colour() {
@@ -28,7 +30,7 @@ Eigen::Isometry3d depth_to_colour() {
 
 /// A pose file holds a 4 x 4 camera-to-world matrix.
 StampedPose read_pose(int number, const std::filesystem::path& file) {
-  const auto numbers = parse_numbers(read_file(file));
+  const auto numbers = read_numbers(file);
   const auto pose = numbers ? rigid_from_rows(*numbers) : std::nullopt;
   if (!pose) throw InputError(file, "expected a rigid 4 x 4 camera-to-world matrix (16 numbers)");
   return {static_cast<double>(number), *pose};
@@ -37,24 +39,35 @@ StampedPose read_pose(int number, const std::filesystem::path& file) {
 }  // namespace
 
 bool is_sevenscenes(const std::filesystem::path& folder) {
-  return !numbered_files(folder, kPrefix, image_suffix(folder, kPrefix, ".color")).empty();
+  return !numbered_images(folder, kColourName).empty();
 }
 
-StoredSequence read_sevenscenes_sequence(const std::filesystem::path& folder) {
+StoredSequence read_sevenscenes_sequence(const std::filesystem::path& folder, const DatasetOptions& options) {
   StoredSequence sequence;
   sequence.name = folder.filename().string();
   sequence.format = "sevenscenes";
+  sequence.frames =
+      numbered_frames({numbered_images(folder, kColourName), numbered_images(folder, kDepthName),
+                       [&](int number) { return folder / fmt::format("frame-{:06}.color.png", number); },
+                       [&](int number) { return folder / fmt::format("frame-{:06}.depth.png", number); }});
   sequence.intrinsics = kColourCamera;
   sequence.registration = DepthRegistration{kDepthCamera, kColourCamera, depth_to_colour()};
   sequence.tracked_to_reference = depth_to_colour().inverse();
   sequence.depth_encoding = kDepthEncoding;
-  sequence.frames =
-      numbered_frames(folder, {kPrefix, image_suffix(folder, kPrefix, ".color")}, {kPrefix, ".depth.png"});
-  Trajectory truth;
-  for (const auto& [number, file] : numbered_files(folder, kPrefix, ".pose.txt")) {
-    truth.push_back(read_pose(number, file));
+  if (const auto own = own_camera(folder, options, sequence)) {
+    use_camera(*own, sequence);
+  } else {
+    sequence.assumptions.push_back(
+        "colour and depth camera are those of 7-Scenes' Kinect, and depth is registered to colour; a "
+        "camera.yaml of "
+        "your own, for depth that is registered already, goes before");
   }
-  if (!truth.empty()) sequence.ground_truth = std::move(truth);
+  read_truth(sequence, [&] {
+    Trajectory truth;
+    for (const auto& [number, file] : numbered_files(folder, kPoseName, ".txt"))
+      truth.push_back(read_pose(number, file));
+    return truth;
+  });
   return sequence;
 }
 

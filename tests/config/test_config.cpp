@@ -139,6 +139,12 @@ TEST_CASE("errors name the file, the line, the key and the way out") {
   CHECK(contains(load_error("# a\ntracking:\n  iteration: 3\n"),
                  "c.yaml:3: unknown key tracking.iteration; did you mean tracking.iterations?"));
   CHECK(contains(load_error("ouptut: a\n"), "c.yaml:1: unknown key ouptut; did you mean output?"));
+  ConfigSchema camera;
+  std::vector<double> values(4);
+  for (std::size_t i = 0; const char* key : {"fx", "fy", "cx", "cy"})
+    camera.add(key, &values[i++], Range{0, 1});
+  CHECK(contains(input_error([&] { camera.set("fY=1"); }), "unknown key fY; did you mean fy?"));
+  CHECK(contains(input_error([&] { camera.set("CX=1"); }), "did you mean cx?"));
   CHECK(contains(load_error("tracking:\n  iterations: 0\n"),
                  "c.yaml:2: tracking.iterations must be a whole number from 1 to 10000, not \"0\""));
   CHECK(contains(load_error("output: a\noutput: b\n"), "c.yaml:2: output is given twice"));
@@ -172,7 +178,7 @@ TEST_CASE("values of the wrong type are refused") {
     CHECK(contains(load_error(std::string("mapping:\n  background: ") + value + "\n"),
                    "must be a list of 3 numbers"));
   }
-  CHECK(contains(load_error("output: [a]\n"), "must be text, not a list"));
+  CHECK(contains(load_error("output: [a]\n"), "must be text in UTF-8, not a list"));
 }
 
 TEST_CASE("configuration files of the program stand in for those that the disk lacks") {

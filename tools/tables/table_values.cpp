@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "engine/io/files.h"
+#include "engine/io/text_file.h"
 #include "engine/types/error.h"
 
 namespace surefield {

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <filesystem>
+#include <opencv2/core.hpp>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace surefield {
+
+/// What the header of an encoded image says about its pixels.
+struct ImageHeader {
+  enum class Kind { Png, Jpeg };
+  Kind kind = Kind::Png;
+  cv::Size size;
+  int bits_per_pixel = 0;
+};
+
+/// Whether the bytes begin as those of a PNG image.
+bool is_png(std::string_view bytes);
+
+/// The header of a PNG or JPEG image; nullopt where the bytes are neither, or end before it.
+std::optional<ImageHeader> read_image_header(std::string_view bytes);
+
+/// Throws InputError, naming `name`, where so many bytes cannot hold so many pixels: the sizes in a damaged header
+/// must not decide how much memory is taken.
+void require_plausible(const ImageHeader& header, std::size_t bytes, const std::filesystem::path& name);
+
+/// A PNG image reduced to the parts that hold its pixels. Throws InputError, naming `name`, where a part is missing
+/// or its checksum is wrong. So libpng, which writes on stderr what it thinks of the other parts, has nothing to
+/// say.
+std::string pixels_of_png(std::string_view bytes, const std::filesystem::path& name);
+
+/// A JPEG image, CV_8UC3, RGB; an empty one where it stores four inks. Throws InputError, naming `name`, where it is
+/// damaged or cut off; stray bytes between its parts, which some cameras write, are no damage.
+cv::Mat decode_jpeg(std::string_view bytes, const std::filesystem::path& name);
+
+}  // namespace surefield
