@@ -126,6 +126,19 @@ std::size_t GzipReader::inflate_into(uint8_t* to, std::size_t count) {
   return room - z.avail_out;
 }
 
+void GzipReader::require_length(const std::filesystem::path& file, const std::string& compressed,
+                                std::size_t fewest, std::size_t most) {
+  GzipReader reader(file, compressed);
+  std::array<uint8_t, kPiece> ignored;
+  std::size_t length = 0;
+  for (std::size_t more = 1; more > 0; length += more) {
+    more = reader.inflate_into(ignored.data(), ignored.size());
+    if (length + more > most)
+      throw InputError(file, "is damaged: it goes on far beyond what its header tells of");
+  }
+  if (length < fewest || !reader.ended_) throw InputError(file, "ends too early; copy or write it again");
+}
+
 std::size_t GzipReader::most_bytes(std::size_t compressed) {
   return compressed * kMostExpansion;
 }

@@ -44,6 +44,11 @@ class GzipReader {
   /// Skips the rest of the stream, which checks its checksum. Throws InputError when it is damaged.
   void finish();
 
+  /// Checks, with the memory of one piece, that a stream holds from `fewest` to `most` bytes. Throws
+  /// InputError where it does not, or is damaged.
+  static void require_length(const std::filesystem::path& file, const std::string& compressed,
+                             std::size_t fewest, std::size_t most);
+
   /// The most bytes that a stream of `compressed` bytes can hold, so that a damaged count is refused before
   /// memory is asked for.
   static std::size_t most_bytes(std::size_t compressed);

@@ -1,7 +1,10 @@
 #include "engine/formats/map_file.h"
 
+#include <fmt/format.h>
+
 #include <fstream>
 
+#include "engine/formats/foreign_map.h"
 #include "engine/formats/glb.h"
 #include "engine/formats/gzip.h"
 #include "engine/formats/ply.h"
@@ -12,12 +15,26 @@ namespace surefield {
 
 namespace {
 
+/// The first bytes of the file. Throws InputError where there is none that can be read: opening anything but
+/// a file could wait for ever.
+std::string start_of(const std::filesystem::path& file) {
+  if (std::filesystem::is_directory(file))
+    throw InputError(file, "is a folder; give the file of a map, as its map.ply");
+  if (!std::filesystem::exists(file)) throw InputError(file, "no such file; check the path");
+  if (!std::filesystem::is_regular_file(file)) throw InputError(file, "is no file that can be read as a map");
+  std::string start(4, '\0');
+  std::ifstream stream(file, std::ios::binary);
+  stream.read(start.data(), static_cast<std::streamsize>(start.size()));
+  return start;
+}
+
 /// Whether the file is to be read as SPZ: by its first bytes, or by its name, so that a damaged file is
 /// refused as what it is meant to be.
 bool is_spz(const std::filesystem::path& file) {
-  std::string start(4, '\0');
-  std::ifstream(file, std::ios::binary).read(start.data(), static_cast<std::streamsize>(start.size()));
-  return starts_as_gzip(start) || start == "NGSP" || file.extension() == ".spz";
+  const std::string start = start_of(file);
+  if (starts_as_gzip(start) || start == "NGSP") return true;
+  if (const std::string foreign = foreign_map_format(file); !foreign.empty()) throw InputError(file, foreign);
+  return file.extension() == ".spz";
 }
 
 }  // namespace
@@ -35,6 +52,13 @@ std::vector<std::string> run_map_formats() {
   return {"ply", "spz"};
 }
 
+std::string left_out_text(std::size_t dropped, std::size_t invisible) {
+  std::string text;
+  if (dropped > 0) text = fmt::format("{} hold NaN or infinite values or no rotation", dropped);
+  if (invisible > 0) text += fmt::format("{}{} have opacity 0 (-inf)", text.empty() ? "" : ", ", invisible);
+  return text;
+}
+
 MapFormat map_format_of(const std::filesystem::path& file) {
   if (file.filename().string().ends_with(".compressed.ply")) return MapFormat::CompressedPly;
   if (file.extension() == ".ply") return MapFormat::Ply;
@@ -46,7 +70,12 @@ MapFormat map_format_of(const std::filesystem::path& file) {
 MapFile read_map(const std::filesystem::path& file) {
   if (is_spz(file)) return {.cloud = read_spz(file)};
   PlyCloud ply = read_ply(file);
-  return {std::move(ply.cloud), ply.dropped};
+  if (ply.cloud.size() == 0 && ply.dropped + ply.invisible > 0) {
+    throw InputError(file,
+                     fmt::format("none of its {} Gaussians can be used: {}", ply.dropped + ply.invisible,
+                                 left_out_text(ply.dropped, ply.invisible)));
+  }
+  return {std::move(ply.cloud), ply.dropped, ply.invisible};
 }
 
 void write_map(const std::filesystem::path& file, const GaussianCloud& cloud, MapFormat format) {

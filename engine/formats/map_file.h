@@ -26,10 +26,15 @@ MapFormat map_format_of(const std::filesystem::path& file);
 /// A map read from a file.
 struct MapFile {
   GaussianCloud cloud;
-  std::size_t dropped = 0;  ///< Gaussians left out because they were not finite
+  std::size_t dropped = 0;    ///< Gaussians left out because they could not be drawn (docs/formats.md)
+  std::size_t invisible = 0;  ///< those whose opacity was 0, left out too
 };
 
-/// Reads Gaussians in any format that is known (docs/formats.md), told by the content. Throws InputError.
+/// Why so many Gaussians were left out, for people; empty for none.
+std::string left_out_text(std::size_t dropped, std::size_t invisible);
+
+/// Reads Gaussians in any format that is known (docs/formats.md), told by the content. Throws InputError,
+/// also where all Gaussians had to be left out, and names formats of other programs that are not read.
 MapFile read_map(const std::filesystem::path& file);
 
 /// Writes Gaussians. The file appears complete or not at all. Throws InputError when it cannot be written.

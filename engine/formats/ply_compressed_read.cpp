@@ -8,10 +8,10 @@
 #include <utility>
 #include <vector>
 
-#include "engine/formats/gaussian_order.h"
 #include "engine/formats/ply_compressed.h"
 #include "engine/formats/ply_records.h"
 #include "engine/formats/rounded_values.h"
+#include "engine/formats/usable_gaussians.h"
 #include "engine/types/error.h"
 
 namespace surefield {
@@ -57,6 +57,11 @@ std::vector<Bounds> read_chunks(const std::filesystem::path& file, const PlyElem
   return all;
 }
 
+/// The bits of a packed number; 0 where a text file has one that is none.
+uint32_t packed_bits(double number) {
+  return number >= 0 && number <= 4294967295.0 ? static_cast<uint32_t>(number) : 0;
+}
+
 /// Takes `bits` from the lower end of `packed`, as a share of the largest value.
 double take(uint32_t& packed, int bits) {
   const double share = static_cast<double>(packed & most(bits)) / most(bits);
@@ -64,10 +69,12 @@ double take(uint32_t& packed, int bits) {
   return share;
 }
 
-/// Where between its chunk's bounds a value lies.
+/// Where between its chunk's bounds a value lies. At a bound the other one, which may be infinite, is left
+/// out.
 float between(const Bounds& bounds, std::size_t attribute, std::size_t axis, double share) {
-  return static_cast<float>(bounds[low(attribute, axis)] * (1 - share) +
-                            bounds[high(attribute, axis)] * share);
+  const double from = bounds[low(attribute, axis)], to = bounds[high(attribute, axis)];
+  if (share <= 0 || from == to) return static_cast<float>(from);
+  return static_cast<float>(share >= 1 ? to : from * (1 - share) + to * share);
 }
 
 Eigen::Vector3f unpack_vector(uint32_t packed, const Bounds& bounds, std::size_t attribute) {
@@ -97,13 +104,12 @@ void unpack_colour(uint32_t packed, const Bounds& bounds, GaussianCloud& cloud, 
     sh[channel] = (between(bounds, kColour, channel, take(packed, kColourBits)) - 0.5f) / kHarmonic0;
 }
 
-void read_gaussians(const std::filesystem::path& file, const PlyElement& vertices,
-                    const std::vector<Bounds>& chunks, PlyRecordReader& reader, GaussianCloud& cloud) {
-  const Columns columns = columns_of(file, vertices, kPacked, PlyType::uint32);
+void read_gaussians(const PlyElement& vertices, const Columns& columns, const std::vector<Bounds>& chunks,
+                    PlyRecordReader& reader, GaussianCloud& cloud) {
   PlyRecord record;
   for (std::size_t i = 0; i < cloud.size(); ++i) {
     reader.next(vertices, record);
-    const auto packed = [&](std::size_t k) { return static_cast<uint32_t>(record.property(columns[k])[0]); };
+    const auto packed = [&](std::size_t k) { return packed_bits(record.property(columns[k])[0]); };
     const Bounds& bounds = chunks[i / kChunk];
     cloud.means[i] = unpack_vector(packed(0), bounds, kPosition);
     cloud.rotations[i] = unpack_rotation(packed(1));
@@ -157,13 +163,15 @@ PlyCloud read_compressed_ply(const std::filesystem::path& file, const PlyHeader&
   const bool has_harmonics = header.elements.size() > 2 && header.elements[2].name == "sh";
   GaussianCloud cloud;
   if (has_harmonics) cloud.sh_degree = degree_of(file, header.elements[2], vertices.count);
-  cloud.resize(vertices.count);
   PlyRecordReader reader(file, header);
-  read_gaussians(file, vertices, read_chunks(file, chunks, reader), reader, cloud);
+  const std::vector<Bounds> bounds = read_chunks(file, chunks, reader);
+  // Memory is taken once it is known that each Gaussian has 16 bytes in the file.
+  const Columns columns = columns_of(file, vertices, kPacked, PlyType::uint32);
+  cloud.resize(vertices.count);
+  read_gaussians(vertices, columns, bounds, reader, cloud);
   if (has_harmonics) read_packed_harmonics(file, header.elements[2], reader, cloud);
-  const std::vector<std::size_t> finite = finite_gaussians(cloud);
-  const std::size_t dropped = cloud.size() - finite.size();
-  return {dropped == 0 ? std::move(cloud) : select(cloud, finite), dropped};
+  const LeftOutGaussians left_out = keep_usable(cloud);
+  return {std::move(cloud), left_out.broken, left_out.invisible};
 }
 
 }  // namespace surefield

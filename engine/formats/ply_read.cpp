@@ -1,4 +1,3 @@
-#include <cmath>
 #include <optional>
 #include <string>
 #include <vector>
@@ -7,6 +6,7 @@
 #include "engine/formats/ply_compressed.h"
 #include "engine/formats/ply_header.h"
 #include "engine/formats/ply_records.h"
+#include "engine/formats/usable_gaussians.h"
 #include "engine/types/error.h"
 
 namespace surefield {
@@ -38,6 +38,22 @@ int infer_sh_degree(const std::filesystem::path& file, const PlyElement& vertice
                    "has " + std::to_string(rest) + " properties f_rest_*; only 0, 9, 24 or 45 are possible");
 }
 
+/// Refuses meshes and points, which have none of what makes a Gaussian.
+void require_gaussians(const std::filesystem::path& file, const PlyHeader& header) {
+  const PlyElement& vertices = header.vertices();
+  for (const char* name : {"scale_0", "rot_0", "f_dc_0"})
+    if (vertices.find(name)) return;
+  for (const PlyElement& element : header.elements) {
+    if (element.name != "face" || element.count == 0) continue;
+    throw InputError(file, "is a triangle mesh (" + std::to_string(element.count) +
+                               " faces), not a map of Gaussians; surefield export --mesh and surefield eval "
+                               "--mesh take it, maps are made by surefield run");
+  }
+  throw InputError(file,
+                   "is a point cloud without Gaussians: its vertices have no scale_0, rot_0 and f_dc_0; "
+                   "give the map that it was made from, as map.ply of surefield run");
+}
+
 GaussianLayout find_layout(const std::filesystem::path& file, const PlyElement& vertices) {
   GaussianLayout layout;
   layout.sh_degree = infer_sh_degree(file, vertices);
@@ -54,21 +70,13 @@ GaussianLayout find_layout(const std::filesystem::path& file, const PlyElement& 
   return layout;
 }
 
-/// Appends one Gaussian; false when one of its values cannot be used.
-bool append(const std::vector<float>& values, float uncertainty, GaussianCloud& cloud) {
-  for (float value : values) {
-    if (!std::isfinite(value)) return false;
-  }
-  if (!std::isfinite(uncertainty)) return false;
-  const Eigen::Vector4f rotation(values[6], values[7], values[8], values[9]);
-  if (rotation.isZero(0)) return false;
+void append(const std::vector<float>& values, float uncertainty, GaussianCloud& cloud) {
   cloud.means.emplace_back(values[0], values[1], values[2]);
   cloud.log_scales.emplace_back(values[3], values[4], values[5]);
-  cloud.rotations.push_back(rotation);
+  cloud.rotations.emplace_back(values[6], values[7], values[8], values[9]);
   cloud.opacity_logits.push_back(values[10]);
   cloud.sh.insert(cloud.sh.end(), values.begin() + 11, values.end());
   cloud.uncertainty.push_back(uncertainty);
-  return true;
 }
 
 }  // namespace
@@ -77,6 +85,7 @@ PlyCloud read_ply(const std::filesystem::path& file) {
   const PlyHeader header = read_ply_header(file);
   if (header.is_compressed()) return read_compressed_ply(file, header);
   const PlyElement& vertices = header.vertices();
+  require_gaussians(file, header);
   const GaussianLayout layout = find_layout(file, vertices);
   PlyCloud result;
   result.cloud.sh_degree = layout.sh_degree;
@@ -89,8 +98,11 @@ PlyCloud read_ply(const std::filesystem::path& file) {
       values[k] = static_cast<float>(record.values[layout.columns[k]]);
     }
     const double uncertainty = layout.uncertainty ? record.values[*layout.uncertainty] : 0;
-    if (!append(values, static_cast<float>(uncertainty), result.cloud)) ++result.dropped;
+    append(values, static_cast<float>(uncertainty), result.cloud);
   }
+  const LeftOutGaussians left_out = keep_usable(result.cloud);
+  result.dropped = left_out.broken;
+  result.invisible = left_out.invisible;
   return result;
 }
 

@@ -1,12 +1,13 @@
 #include "engine/formats/ply_records.h"
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
 #include <optional>
 
-#include "engine/io/files.h"
+#include "engine/io/text_file.h"
 #include "engine/types/error.h"
 
 static_assert(std::endian::native == std::endian::little,
@@ -56,6 +57,7 @@ std::optional<std::size_t> list_length(double value) {
 PlyRecordReader::PlyRecordReader(const std::filesystem::path& file, const PlyHeader& header)
     : file_(file), is_ascii_(header.is_ascii), stream_(file, std::ios::binary) {
   stream_.seekg(static_cast<std::streamoff>(header.data_offset));
+  left_ = std::filesystem::file_size(file) - header.data_offset;
 }
 
 void PlyRecordReader::next(const PlyElement& element, PlyRecord& record) {
@@ -73,8 +75,8 @@ void PlyRecordReader::next_binary(const PlyElement& element, PlyRecord& record) 
   for (const PlyProperty& property : element.properties) {
     record.starts.push_back(record.values.size());
     const auto length = property.list_length ? list_length(read_scalar(*property.list_length)) : 1;
-    if (!length) fail(element);
-    // Value by value, so that a damaged length ends with the file and asks for no absurd amount of memory.
+    // A damaged length asks for no more memory than the file has bytes for.
+    if (!length || *length > left_ / ply_type_size(property.type)) fail(element);
     for (std::size_t i = 0; i < *length && stream_; ++i) {
       record.values.push_back(read_scalar(property.type));
     }
@@ -101,7 +103,9 @@ void PlyRecordReader::next_ascii(const PlyElement& element, PlyRecord& record) {
 
 double PlyRecordReader::read_scalar(PlyType type) {
   char bytes[8] = {};
-  stream_.read(bytes, static_cast<std::streamsize>(ply_type_size(type)));
+  const std::size_t size = ply_type_size(type);
+  stream_.read(bytes, static_cast<std::streamsize>(size));
+  left_ -= std::min<std::uintmax_t>(left_, size);
   return load_scalar(type, bytes);
 }
 

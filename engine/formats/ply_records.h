@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <fstream>
 #include <span>
@@ -39,6 +40,7 @@ class PlyRecordReader {
   const std::filesystem::path& file_;
   bool is_ascii_;
   std::ifstream stream_;
+  std::uintmax_t left_ = 0;  ///< bytes of a binary file that have not been read
   std::string line_;
 };
 

@@ -23,6 +23,9 @@ namespace {
 using Bytes = std::vector<uint8_t>;
 
 constexpr uint32_t kNewest = 3;
+constexpr uint32_t kFewGaussians = 1000000;  // whose memory is of no concern, however well they compress
+constexpr std::size_t kMostExtension = std::size_t{1}
+                                       << 20;  // bytes behind the arrays, beyond their own length
 
 std::string read_compressed(const std::filesystem::path& file) {
   std::string compressed = read_file(file);
@@ -36,7 +39,24 @@ std::size_t rotation_bytes(const spz::Header& header) {
   return header.version == 3 ? 4 : 3;
 }
 
-spz::Header read_header(const std::filesystem::path& file, GzipReader& gzip, std::size_t compressed) {
+/// Checks the number of Gaussians against the bytes at hand before memory is taken for them.
+void check_count(const std::filesystem::path& file, const spz::Header& header,
+                 const std::string& compressed) {
+  const std::size_t bytes = 9 + 1 + 3 + 3 + rotation_bytes(header) +
+                            static_cast<std::size_t>(sh_coefficients(header.sh_degree) - 1) * 3;
+  if (header.count > GzipReader::most_bytes(compressed.size()) / bytes)
+    throw InputError(file, fmt::format("holds fewer Gaussians than its header says ({}); the file is damaged",
+                                       header.count));
+  if (header.count > kFewGaussians && compressed.size() < header.count)
+    throw InputError(file,
+                     fmt::format("claims {} Gaussians in {} bytes, where maps take 10 bytes and more for "
+                                 "each; the file is damaged, or made to fill the memory",
+                                 header.count, compressed.size()));
+  const std::size_t length = sizeof(header) + header.count * bytes;
+  GzipReader::require_length(file, compressed, length, 2 * length + kMostExtension);
+}
+
+spz::Header read_header(const std::filesystem::path& file, GzipReader& gzip) {
   spz::Header header;
   std::memcpy(&header, gzip.read(sizeof(header)).data(), sizeof(header));
   if (header.magic != spz::kMagic) throw InputError(file, "is no SPZ file: \"NGSP\" is missing");
@@ -50,11 +70,6 @@ spz::Header read_header(const std::filesystem::path& file, GzipReader& gzip, std
                      fmt::format("has SH of degree {}; only 0 to 3 are possible here", header.sh_degree));
   if (header.fractional_bits > 23)
     throw InputError(file, fmt::format("is damaged: {} bits after the point", header.fractional_bits));
-  const std::size_t bytes = 9 + 1 + 3 + 3 + rotation_bytes(header) +
-                            static_cast<std::size_t>(sh_coefficients(header.sh_degree) - 1) * 3;
-  if (header.count > GzipReader::most_bytes(compressed) / bytes)
-    throw InputError(file, fmt::format("holds fewer Gaussians than its header says ({}); the file is damaged",
-                                       header.count));
   return header;
 }
 
@@ -133,7 +148,8 @@ void read_looks(GzipReader& gzip, GaussianCloud& cloud) {
 GaussianCloud read_spz(const std::filesystem::path& file) {
   const std::string compressed = read_compressed(file);
   GzipReader gzip(file, compressed);
-  const spz::Header header = read_header(file, gzip, compressed.size());
+  const spz::Header header = read_header(file, gzip);
+  check_count(file, header, compressed);
   GaussianCloud cloud;
   cloud.sh_degree = header.sh_degree;
   cloud.resize(header.count);

@@ -7,6 +7,7 @@
 #include <opencv2/imgproc.hpp>
 #include <opencv2/videoio.hpp>
 
+#include "engine/io/file_names.h"
 #include "engine/io/files.h"
 #include "engine/io/images.h"
 #include "engine/types/error.h"
@@ -100,7 +101,7 @@ void FilmWriter::add(const cv::Mat& picture) {
 void FilmWriter::close() {
   if (!encoder_) {
     // An earlier series may have been longer.
-    for (const auto& [number, file] : numbered_files(output_, "", ".png"))
+    for (const auto& [number, file] : numbered_files(output_, {}, ".png"))
       if (number >= pictures_) std::filesystem::remove(file);
     return;
   }

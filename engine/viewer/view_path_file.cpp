@@ -10,7 +10,7 @@ namespace surefield {
 namespace {
 
 Pose read_key_pose(const JsonObject& key) {
-  if (key.has("world_to_camera")) return read_world_to_camera(key).inverse();
+  if (key.has("world_to_camera")) return read_rigid(key, "world_to_camera").inverse();
   if (!key.has("position")) key.fail("position", "and \"look_at\" are missing, or \"world_to_camera\"");
   const Eigen::Vector3d from = key.point("position"), at = key.point("look_at");
   if (from == at) key.fail("look_at", "must be another point than \"position\"");

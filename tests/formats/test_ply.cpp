@@ -96,19 +96,65 @@ TEST_CASE("properties may come in any order and type, others are ignored, ASCII 
   CHECK(read.cloud.uncertainty == std::vector<float>{0, 0});  // the file has none
 }
 
-TEST_CASE("Gaussians with NaN, infinity or a zero rotation are left out and counted") {
+TEST_CASE(
+    "Gaussians with NaN, an infinite place, size or colour, or a zero rotation are left out and counted") {
   const TemporaryFolder folder;
   GaussianCloud cloud = random_cloud(10, 2);
   cloud.means[1].x() = std::numeric_limits<float>::quiet_NaN();
   cloud.sh[27 * 4 + 20] = std::numeric_limits<float>::infinity();
   cloud.rotations[9].setZero();
-  cloud.uncertainty[3] = std::numeric_limits<float>::infinity();
+  cloud.uncertainty[3] = std::numeric_limits<float>::quiet_NaN();
+  cloud.log_scales[5].z() = std::numeric_limits<float>::infinity();
+  cloud.opacity_logits[6] = std::numeric_limits<float>::quiet_NaN();
   write_ply(folder / "a.ply", cloud);
   const PlyCloud read = read_ply(folder / "a.ply");
-  CHECK(read.dropped == 4);
-  REQUIRE(read.cloud.size() == 6);
+  CHECK(read.dropped == 6);
+  CHECK(read.invisible == 0);
+  REQUIRE(read.cloud.size() == 4);
   CHECK(read.cloud.means[1] == cloud.means[2]);
-  CHECK(read.cloud.sh.size() == 6 * 27);
+  CHECK(read.cloud.sh.size() == 4 * 27);
+}
+
+TEST_CASE("infinities have their meaning: opaque, not there, flat, as uncertain as can be") {
+  const TemporaryFolder folder;
+  const float infinity = std::numeric_limits<float>::infinity();
+  GaussianCloud cloud = random_cloud(6, 1);
+  cloud.opacity_logits[0] = infinity;
+  cloud.opacity_logits[1] = -infinity;
+  cloud.log_scales[2].y() = -infinity;
+  cloud.uncertainty[3] = infinity;
+  cloud.opacity_logits[4] = infinity;  // of a Gaussian that is flat, too
+  cloud.log_scales[4].setConstant(-infinity);
+  write_ply(folder / "a.ply", cloud);
+  const PlyCloud read = read_ply(folder / "a.ply");
+  CHECK(read.dropped == 0);
+  CHECK(read.invisible == 1);
+  REQUIRE(read.cloud.size() == 5);
+  CHECK(test::opacity(read.cloud.opacity_logits[0]) == 1.0f);
+  CHECK(std::isfinite(read.cloud.opacity_logits[0]));
+  CHECK(read.cloud.means[1] == cloud.means[2]);
+  CHECK(std::exp(read.cloud.log_scales[1].y()) < 1e-8f);
+  CHECK(read.cloud.log_scales[1].allFinite());
+  CHECK(read.cloud.log_scales[1].x() == cloud.log_scales[2].x());
+  CHECK(read.cloud.uncertainty[2] > 1e38f);
+  CHECK(std::isfinite(read.cloud.uncertainty[2]));
+  const auto ascii = folder.write("b.ply", std::string(kAsciiHeader) +
+                                               "inf 1 0 0 0 200 3 2 1 0.3 0.2 0.1 -4 -inf -6\n"
+                                               "-inf 0 0 0 2 0 6 5 4 0.6 0.5 0.4 -1 -2 -3\n");
+  CHECK(read_ply(ascii).cloud.size() == 1);
+  CHECK(read_ply(ascii).invisible == 1);
+}
+
+TEST_CASE("meshes and point clouds are told from maps of Gaussians") {
+  const TemporaryFolder folder;
+  const std::string points =
+      "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\n"
+      "property float z\nproperty float opacity\n";
+  CHECK(contains(read_error(folder, points + "end_header\n0 0 0 1\n"), "is a point cloud without Gaussians"));
+  CHECK(contains(
+      read_error(folder, points + "element face 1\nproperty list uchar int vertex_indices\nend_header\n"
+                                  "0 0 0 1\n3 0 0 0\n"),
+      "is a triangle mesh (1 faces), not a map of Gaussians; surefield export --mesh"));
 }
 
 TEST_CASE("wrong files are refused with the reason") {

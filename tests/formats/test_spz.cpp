@@ -224,6 +224,22 @@ TEST_CASE("foreign SPZ files are refused with the reason") {
   CHECK(contains(input_error([&] { write_spz(folder / "no/a.spz", {}); }), "create it first"));
 }
 
+TEST_CASE("an SPZ file that claims far more than its bytes is refused before memory is taken") {
+  const TemporaryFolder folder;
+  const auto claims = [&](uint32_t count, std::size_t bytes) {
+    std::string content = header_by_hand(2);
+    std::memcpy(content.data() + 8, &count, 4);
+    content[12] = 0;  // SH of degree 0: 19 bytes a Gaussian
+    return read_error(folder, gzipped(content + std::string(bytes, '\0')));
+  };
+  CHECK(claims(1000, 19 * 1000).empty());
+  CHECK(contains(claims(20000000, 400000), "holds fewer Gaussians than its header says (20000000)"));
+  // The bytes are there, but no real map is all zeros.
+  CHECK(contains(claims(2000000, 19 * 2000000), "claims 2000000 Gaussians in "));
+  CHECK(contains(claims(1001, 19 * 1000), "ends too early"));
+  CHECK(contains(claims(10, 3000000), "goes on far beyond what its header tells of"));
+}
+
 TEST_CASE("an SPZ file cut at any byte, or with any byte changed, is read or refused, never a crash") {
   const TemporaryFolder folder;
   write_spz(folder / "full.spz", random_cloud(3, 1));

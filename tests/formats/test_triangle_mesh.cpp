@@ -53,6 +53,16 @@ TEST_CASE("a mesh survives: positions bit by bit, colours to 8 bits") {
   CHECK_FALSE(std::filesystem::exists(folder / "a.ply.part"));
 }
 
+TEST_CASE("a face that claims more corners than the file has bytes is refused before memory is taken") {
+  const TemporaryFolder folder;
+  std::string bytes =
+      "ply\nformat binary_little_endian 1.0\nelement vertex 1\nproperty float x\nproperty float y\n"
+      "property float z\nelement face 1\nproperty list uint int vertex_indices\nend_header\n";
+  bytes +=
+      std::string(12, '\0') + std::string("\x00\x28\x6b\xee", 4) + std::string(400, '\0');  // 4 000 000 000
+  CHECK(contains(read_error(folder, bytes), "ends or is damaged before its last face"));
+}
+
 TEST_CASE("meshes without colours and without anything survive") {
   const TemporaryFolder folder;
   TriangleMesh mesh = tetrahedron();
