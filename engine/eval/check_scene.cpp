@@ -92,6 +92,10 @@ PreparedScene prepare_scene(const Recording& recording, const Trajectory* truth,
   CheckScene& scene = prepared.scene;
   scene.intrinsics = recording.intrinsics().scaled(prepared.scale);
   if (truth) scene.track = PoseTrack(of_tracked_camera(*truth, recording));
+  bool posed = false;
+  for (int i = 0; i < recording.count() && !posed; ++i)
+    posed = scene.track.at(recording.timestamp(i)).has_value();
+  if (!posed) scene.track = PoseTrack(Trajectory{});
   Loader loader(recording, prepared);
   const bool alone = scene.track.empty();
   for (int i : spread(recording.count(), alone ? kFramesAlone : kPairs)) {

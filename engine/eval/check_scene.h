@@ -20,8 +20,8 @@ std::vector<int> spread(int size, int count);
 bool stamps_are_indices(const Recording& recording);
 
 /// Loads frames from all over the dataset, each with a later one that was seen from clearly elsewhere but
-/// shows much of the same; without `truth` (null), or poses in it, just frames. Frames that cannot be read
-/// are left out. Ends early, with what was loaded, when `stop` returns true.
+/// shows much of the same; without `truth` (null), or poses near the frames in it, just frames. Frames that
+/// cannot be read are left out. Ends early, with what was loaded, when `stop` returns true.
 PreparedScene prepare_scene(const Recording& recording, const Trajectory* truth,
                             const std::function<bool()>& stop);
 

@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "engine/sources/depth_range.h"
 #include "engine/sources/frame_stream.h"
 
 namespace surefield {
@@ -19,29 +20,23 @@ struct StampSurvey {
   int disordered = 0;      ///< stamps that are not later than the one before
 };
 
-/// What the depth images hold.
-struct DepthSurvey {
-  double near = 0;    ///< metres, a hundredth of the depths is less, to 3 percent
-  double median = 0;  ///< metres, to 3 percent
-  double far = 0;     ///< metres, a hundredth of the depths is more, to 3 percent
-  double holes = 0;   ///< share of the pixels without depth
-};
-
 /// What reading a whole dataset tells.
 struct DatasetSurvey {
   int frames = 0;  ///< those looked at
   std::vector<SkippedFrame> unreadable;
   int posed = 0;  ///< frames whose true pose is known
+  int poses = 0;  ///< of the truth, those that are finite
   StampSurvey stamps;
-  std::optional<DepthSurvey> depth;  ///< nothing where no frame has depth
+  std::optional<DepthRange> depth;  ///< nothing where no frame has depth
 };
 
 /// The times alone; reads no image.
 StampSurvey survey_stamps(const Recording& recording);
 
-/// Reads every frame. `truth` is the true trajectory, null where there is none. `go_on` is told how many are
-/// done and ends the survey early by returning false.
-DatasetSurvey survey_dataset(const Recording& recording, const Trajectory* truth,
+/// Reads every frame. `truth` is the true trajectory, null where there is none; `depth_max`, metres, is what
+/// DepthRange::beyond counts from. `go_on` is told how many are done and ends the survey early by returning
+/// false.
+DatasetSurvey survey_dataset(const Recording& recording, const Trajectory* truth, double depth_max,
                              const std::function<bool(int)>& go_on = {});
 
 }  // namespace surefield

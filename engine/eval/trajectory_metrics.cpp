@@ -1,8 +1,11 @@
 #include "engine/eval/trajectory_metrics.h"
 
+#include <fmt/format.h>
+
 #include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string>
 #include <tuple>
 
@@ -13,6 +16,7 @@ namespace surefield {
 namespace {
 
 constexpr std::size_t kFewestPairs = 3;  // below that no alignment is determined
+constexpr double kStandsStill = 1e-9;    // of how far away positions are: their rounding
 
 /// The poses that are finite, in the order of time.
 std::vector<StampedPose> usable_poses(const Trajectory& trajectory) {
@@ -93,6 +97,63 @@ RelativeError consecutive_error(const std::vector<PosePair>& pairs) {
   return errors.total();
 }
 
+/// Where the cameras of pairs are, a column each.
+struct Positions {
+  explicit Positions(const std::vector<PosePair>& pairs)
+      : estimates(3, pairs.size()), truths(3, pairs.size()) {
+    for (std::size_t i = 0; i < pairs.size(); ++i) {
+      estimates.col(static_cast<Eigen::Index>(i)) = pairs[i].estimate.translation();
+      truths.col(static_cast<Eigen::Index>(i)) = pairs[i].truth.translation();
+    }
+  }
+
+  Eigen::Matrix3Xd estimates;
+  Eigen::Matrix3Xd truths;
+};
+
+/// Whether the stamps are only the numbers of frames: no camera's clock gives whole seconds all the time.
+bool count_frames(const std::vector<PosePair>& pairs) {
+  return std::all_of(pairs.begin(), pairs.end(),
+                     [](const PosePair& pair) { return pair.timestamp == std::floor(pair.timestamp); });
+}
+
+/// The smallest time between poses of two trajectories, each in the order of time.
+double smallest_difference(const Trajectory& a, const Trajectory& b) {
+  double smallest = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0, k = 0; i < a.size() && k < b.size();) {
+    smallest = std::min(smallest, std::abs(a[i].timestamp - b[k].timestamp));
+    a[i].timestamp < b[k].timestamp ? ++i : ++k;
+  }
+  return smallest;
+}
+
+/// Says why so few poses could be paired.
+[[noreturn]] void refuse_few(std::size_t pairs, const Trajectory& estimate, const Trajectory& truth,
+                             double max_difference) {
+  const std::vector<StampedPose> estimates = usable_poses(estimate), truths = usable_poses(truth);
+  if (estimates.empty())
+    throw InputError("the estimate has no pose that is known: there is nothing to compare");
+  if (truths.empty())
+    throw InputError("the truth has no pose that is known: there is nothing to compare with");
+  const double from = estimates.front().timestamp, to = estimates.back().timestamp;
+  const double true_from = truths.front().timestamp, true_to = truths.back().timestamp;
+  const bool apart = from > true_to + max_difference || to < true_from - max_difference;
+  std::string problem;
+  if (pairs > 0) {
+    problem =
+        fmt::format("only {} poses can be paired with the ground truth within {} s, at least {} are needed",
+                    pairs, max_difference, kFewestPairs);
+  } else {
+    problem = fmt::format(
+        "no pose of the truth is near one of the estimate (within {} s): {}", max_difference,
+        apart ? fmt::format("clocks differ by {:.3f} s", std::abs(from - true_from))
+              : fmt::format("the nearest stamps are {:.3f} s apart", smallest_difference(estimates, truths)));
+  }
+  throw InputError(
+      fmt::format("{}; the estimate has stamps from {:.3f} to {:.3f}, the truth from {:.3f} to {:.3f}",
+                  problem, from, to, true_from, true_to));
+}
+
 }  // namespace
 
 std::vector<PosePair> associate(const Trajectory& estimate, const Trajectory& truth, double max_difference) {
@@ -121,15 +182,30 @@ Eigen::Isometry3d align(const std::vector<PosePair>& pairs) {
         "only " + std::to_string(pairs.size()) +
         " poses can be paired with the ground truth, at least 3 are needed; do the time stamps match?");
   }
-  Eigen::Matrix3Xd estimates(3, pairs.size());
-  Eigen::Matrix3Xd truths(3, pairs.size());
-  for (std::size_t i = 0; i < pairs.size(); ++i) {
-    estimates.col(static_cast<Eigen::Index>(i)) = pairs[i].estimate.translation();
-    truths.col(static_cast<Eigen::Index>(i)) = pairs[i].truth.translation();
-  }
+  const Positions positions(pairs);
   Eigen::Isometry3d alignment;
-  alignment.matrix() = Eigen::umeyama(estimates, truths, /*with_scaling=*/false);
+  alignment.matrix() = Eigen::umeyama(positions.estimates, positions.truths, /*with_scaling=*/false);
   return alignment;
+}
+
+double fit_scale(const std::vector<PosePair>& pairs) {
+  if (pairs.size() < kFewestPairs) throw InputError("at least 3 pairs of poses are needed to find a scale");
+  const Positions positions(pairs);
+  for (const auto* moving : {&positions.estimates, &positions.truths}) {
+    const double spread = (moving->colwise() - moving->rowwise().mean()).norm();
+    if (!(spread > kStandsStill * (1 + moving->norm()))) {
+      throw InputError(
+          fmt::format("the {} stands still: there is no scale to be found; compare it with "
+                      "--align se3",
+                      moving == &positions.estimates ? "estimated camera" : "true camera"));
+    }
+  }
+  const Eigen::Matrix4d similar =
+      Eigen::umeyama(positions.estimates, positions.truths, /*with_scaling=*/true);
+  const double scale = std::cbrt(similar.topLeftCorner<3, 3>().determinant());
+  if (!(scale > 0))
+    throw InputError("no scale brings the estimate near to the truth; compare it with --align se3");
+  return scale;
 }
 
 RelativeError relative_error(const std::vector<PosePair>& pairs, double seconds) {
@@ -151,19 +227,24 @@ RelativeError relative_error(const std::vector<PosePair>& pairs, double seconds)
 }
 
 TrajectoryMetrics evaluate_trajectory(const Trajectory& estimate, const Trajectory& truth,
-                                      double max_difference) {
-  const std::vector<PosePair> pairs = associate(estimate, truth, max_difference);
+                                      const TrajectoryComparison& comparison) {
+  std::vector<PosePair> pairs = associate(estimate, truth, comparison.max_difference);
+  if (pairs.size() < kFewestPairs) refuse_few(pairs.size(), estimate, truth, comparison.max_difference);
   TrajectoryMetrics metrics;
   metrics.pairs = static_cast<int>(pairs.size());
   metrics.estimates = static_cast<int>(estimate.size());
-  metrics.alignment = align(pairs);
+  if (comparison.alignment == Alignment::Similarity) {
+    metrics.scale = fit_scale(pairs);
+    for (PosePair& pair : pairs) pair.estimate.translation() *= metrics.scale;
+  }
+  if (comparison.alignment != Alignment::None) metrics.alignment = align(pairs);
   std::vector<double> errors;
   for (const PosePair& pair : pairs) {
     errors.push_back((metrics.alignment * pair.estimate.translation() - pair.truth.translation()).norm());
   }
   metrics.ate = statistics(std::move(errors));
   metrics.rpe_frame = consecutive_error(pairs);
-  metrics.rpe_second = relative_error(pairs, 1.0);
+  if (!count_frames(pairs)) metrics.rpe_second = relative_error(pairs, 1.0);
   return metrics;
 }
 

@@ -29,13 +29,26 @@ struct RelativeError {
   double rotation = 0;     ///< RMSE of the angle, radians
 };
 
+/// By what an estimate is brought into the truth's world before it is compared: by nothing, by a rigid
+/// transform, or by one with a scale, for systems that do not know it.
+enum class Alignment { None, Rigid, Similarity };
+
+/// How a trajectory is compared with the truth.
+struct TrajectoryComparison {
+  double max_difference = 0.02;  ///< seconds between an estimate and its truth, at most
+  Alignment alignment = Alignment::Rigid;
+};
+
 /// How far a trajectory is from the truth.
 struct TrajectoryMetrics {
-  int pairs = 0;             ///< poses compared
-  int estimates = 0;         ///< poses in the estimate
-  ErrorStatistics ate;       ///< absolute error of the camera's position after alignment, metres
-  RelativeError rpe_frame;   ///< over consecutive pairs
-  RelativeError rpe_second;  ///< over one second of the time stamps; no motions where they have none
+  int pairs = 0;            ///< poses compared
+  int estimates = 0;        ///< poses in the estimate
+  ErrorStatistics ate;      ///< absolute error of the camera's position after alignment, metres
+  RelativeError rpe_frame;  ///< over consecutive pairs
+  /// Over one second; no motions where no two poses lie a second apart, and where all stamps are whole
+  /// numbers, which then count frames.
+  RelativeError rpe_second;
+  double scale = 1;  ///< that the estimate's positions were multiplied by, first of all
   Eigen::Isometry3d alignment = Eigen::Isometry3d::Identity();  ///< estimate's world to the truth's world
 };
 
@@ -54,8 +67,13 @@ Eigen::Isometry3d align(const std::vector<PosePair>& pairs);
 /// of time, as associate() gives them.
 RelativeError relative_error(const std::vector<PosePair>& pairs, double seconds);
 
-/// Associates, aligns and measures. Throws InputError when fewer than 3 poses can be paired.
+/// The scale by which the estimated positions, aligned too, come nearest to the true ones (Umeyama). At least
+/// 3 pairs; InputError also where one of the two stands still.
+double fit_scale(const std::vector<PosePair>& pairs);
+
+/// Associates, aligns and measures. Throws InputError when fewer than 3 poses can be paired, and says how far
+/// apart the stamps of the two are; and where no scale can be found that is asked for.
 TrajectoryMetrics evaluate_trajectory(const Trajectory& estimate, const Trajectory& truth,
-                                      double max_difference = 0.02);
+                                      const TrajectoryComparison& comparison = {});
 
 }  // namespace surefield

@@ -40,6 +40,14 @@ std::vector<DepthPoint> thinned(const std::vector<DepthPoint>& points) {
   return some;
 }
 
+/// CV_32F, 0 to 255.
+cv::Mat grey_of(const cv::Mat& colour) {
+  cv::Mat grey, values;
+  cv::cvtColor(colour, grey, cv::COLOR_RGB2GRAY);
+  grey.convertTo(values, CV_32F);
+  return values;
+}
+
 /// Whether something well behind is seen within kRimReach pixels, in a row or in a column.
 bool is_rim(const cv::Mat& depth, int x, int y) {
   const float limit = kRim * depth.at<float>(y, x);
@@ -50,18 +58,17 @@ bool is_rim(const cv::Mat& depth, int x, int y) {
   return false;
 }
 
-void collect_points(CheckFrame& frame) {
-  for (int y = kRimReach; y + kRimReach < frame.depth.rows; ++y) {
-    for (int x = kRimReach; x + kRimReach < frame.depth.cols; ++x) {
-      const float z = frame.depth.at<float>(y, x);
-      if (!(z > 0)) continue;
-      const DepthPoint point = {static_cast<float>(x), static_cast<float>(y), z};
-      if (std::abs(frame.texture.at<float>(y, x)) > kTexturedFrom) frame.points.push_back(point);
-      if (is_rim(frame.depth, x, y)) frame.rims.push_back(point);
+/// The pixels with depth for which `test`(x, y) holds, thinned.
+template <typename Test>
+std::vector<DepthPoint> points_where(const cv::Mat& depth, Test test) {
+  std::vector<DepthPoint> points;
+  for (int y = kRimReach; y + kRimReach < depth.rows; ++y) {
+    for (int x = kRimReach; x + kRimReach < depth.cols; ++x) {
+      const float z = depth.at<float>(y, x);
+      if (z > 0 && test(x, y)) points.push_back({static_cast<float>(x), static_cast<float>(y), z});
     }
   }
-  frame.points = thinned(frame.points);
-  frame.rims = thinned(frame.rims);
+  return thinned(points);
 }
 
 /// Colour and depth camera under a correction.
@@ -166,19 +173,37 @@ CheckFrame prepare_frame(const Frame& frame, double depth_timestamp) {
   check.timestamp = frame.timestamp;
   check.depth_timestamp = depth_timestamp;
   check.depth = frame.depth;
-  cv::Mat grey, smooth, along_x, along_y;
-  cv::cvtColor(frame.colour, grey, cv::COLOR_RGB2GRAY);
-  grey.convertTo(check.grey, CV_32F);
+  cv::Mat smooth;
+  check.grey = grey_of(frame.colour);
   cv::GaussianBlur(check.grey, smooth, {}, kTextureScale);
   check.texture = check.grey - smooth;
-  cv::GaussianBlur(check.grey, smooth, {}, 1);
+  check.contrast = edge_contrast(frame.colour);
+  check.points = points_where(
+      check.depth, [&](int x, int y) { return std::abs(check.texture.at<float>(y, x)) > kTexturedFrom; });
+  check.rims = depth_rims(check.depth);
+  return check;
+}
+
+cv::Mat edge_contrast(const cv::Mat& colour) {
+  cv::Mat smooth, along_x, along_y, contrast;
+  cv::GaussianBlur(grey_of(colour), smooth, {}, 1);
   cv::Sobel(smooth, along_x, CV_32F, 1, 0);
   cv::Sobel(smooth, along_y, CV_32F, 0, 1);
-  cv::magnitude(along_x, along_y, check.contrast);
-  const double mean = cv::mean(check.contrast)[0];
-  if (mean > 0) check.contrast = cv::min(check.contrast * (1 / mean), kMostContrast);
-  collect_points(check);
-  return check;
+  cv::magnitude(along_x, along_y, contrast);
+  const double mean = cv::mean(contrast)[0];
+  if (mean > 0) contrast = cv::min(contrast * (1 / mean), kMostContrast);
+  return contrast;
+}
+
+std::vector<DepthPoint> depth_rims(const cv::Mat& depth) {
+  return points_where(depth, [&](int x, int y) { return is_rim(depth, x, y); });
+}
+
+std::optional<double> mean_contrast(const cv::Mat& contrast, const std::vector<DepthPoint>& rims,
+                                    const cv::Point2d& shift) {
+  ShareMean mean;
+  for (const DepthPoint& point : rims) mean.add(sample(contrast, point.x + shift.x, point.y + shift.y));
+  return mean.mean(rims.size());
 }
 
 PoseTrack::PoseTrack(const Trajectory& trajectory) {

@@ -45,6 +45,17 @@ struct CheckFrame {
 /// Prepares a frame that is already of the size to check at. `depth_timestamp` in seconds.
 CheckFrame prepare_frame(const Frame& frame, double depth_timestamp);
 
+/// Strength of the edges of a colour image, CV_8UC3: CV_32F, 1 on average.
+cv::Mat edge_contrast(const cv::Mat& colour);
+
+/// Points on the near side of the edges of a depth image, CV_32F, metres.
+std::vector<DepthPoint> depth_rims(const cv::Mat& depth);
+
+/// Mean of edge_contrast() at the rims of a depth image that is shifted by so many pixels; nullopt where
+/// there are too few.
+std::optional<double> mean_contrast(const cv::Mat& contrast, const std::vector<DepthPoint>& rims,
+                                    const cv::Point2d& shift);
+
 /// The true poses of the tracked camera at any time.
 class PoseTrack {
  public:

@@ -12,7 +12,7 @@ namespace surefield::test {
 /// recording of which everything is known.
 class PlanesRecording : public Recording {
  public:
-  explicit PlanesRecording(int frames = 40) {
+  explicit PlanesRecording(int frames = 40, bool moving = true) : moving_(moving) {
     for (int i = 0; i < frames; ++i) truth_.push_back({i / kRate, pose(i / kRate)});
   }
 
@@ -51,13 +51,15 @@ class PlanesRecording : public Recording {
   bool with_truth = true;
 
  private:
+  Eigen::Isometry3d pose(double t) const { return sway(moving_ ? t : 0); }
+
   struct Seen {
     double level = 0;
     double depth = 0;
   };
 
   /// Sways to and fro, several times a second, so that no two moments are alike.
-  static Eigen::Isometry3d pose(double t) {
+  static Eigen::Isometry3d sway(double t) {
     const double w = 2 * std::numbers::pi;
     Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
     pose.translate(Eigen::Vector3d(0.25 * std::sin(1.1 * w * t), 0.15 * std::sin(0.7 * w * t + 1),
@@ -93,6 +95,7 @@ class PlanesRecording : public Recording {
     return nearest;
   }
 
+  bool moving_;
   Trajectory truth_;
 };
 

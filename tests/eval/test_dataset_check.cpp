@@ -6,6 +6,7 @@
 #include <opencv2/imgproc.hpp>
 #include <utility>
 
+#include "engine/eval/verdicts.h"
 #include "engine/sources/layouts.h"
 #include "tests/eval/planes.h"
 #include "tests/support/input_files.h"
@@ -25,8 +26,15 @@ const Judgement& judged(const DatasetCheck& check, CheckedValue value) {
 
 std::string findings_text(const DatasetCheck& check, const Recording& recording) {
   std::string text;
-  for (const std::string& finding : check_findings(check, recording)) text += finding + "\n";
+  for (const std::string& finding : findings_of(check_verdicts(check, recording))) text += finding + "\n";
   return text;
+}
+
+Verdict said(const DatasetCheck& check, const Recording& recording, const std::string& subject) {
+  for (const Verdict& verdict : check_verdicts(check, recording))
+    if (verdict.subject == subject) return verdict;
+  FAIL("nothing is said about ", subject);
+  return {};
 }
 
 /// Another dataset, changed in memory.
@@ -96,7 +104,11 @@ TEST_CASE("plates as told: nothing is found wrong, and frames fit exactly") {
   CHECK(check.error.pairs >= 15);
   CHECK(check.error.depth_median < 0.002);
   CHECK(check.error.grey_levels < 3);
-  CHECK_MESSAGE(check_findings(check, planes).empty(), findings_text(check, planes));
+  CHECK(findings_text(check, planes).empty());
+  CHECK(said(check, planes, "depth_scale").outcome == Outcome::Fits);
+  CHECK(said(check, planes, "focal_length").outcome == Outcome::Fits);
+  CHECK(said(check, planes, "registration").outcome == Outcome::Fits);
+  CHECK(said(check, planes, "pose_delay").outcome == Outcome::Fits);
   CHECK(judged(check, CheckedValue::DepthScale).best == doctest::Approx(1).epsilon(0.02));
 }
 
@@ -107,9 +119,8 @@ TEST_CASE("plates with depth 1.25 times too large: the scale is found, nothing e
   const Judgement& scale = judged(check, CheckedValue::DepthScale);
   CHECK(scale.wrong);
   CHECK(scale.best == doctest::Approx(0.8).epsilon(0.02));
-  const auto findings = check_findings(check, planes);
-  REQUIRE(findings.size() == 1);
-  CHECK(contains(findings.front(), "x too large: depth_unit is 1/1000 m, 1/12"));
+  CHECK(contains(findings_text(check, planes), "x too large: depth_unit is 1/1000 m, 1/12"));
+  CHECK(findings_of(check_verdicts(check, planes)).size() == 1);
 }
 
 TEST_CASE(
@@ -139,16 +150,58 @@ TEST_CASE(
   CHECK(judged(depth_delay, CheckedValue::DepthDelay).best == doctest::Approx(0.04).epsilon(0.15));
 }
 
-TEST_CASE("without poses the registration alone is judged") {
-  PlanesRecording planes(12);
+TEST_CASE("without poses: what takes them is not checked, and said so") {
+  PlanesRecording planes(30);
   planes.with_truth = false;
   const DatasetCheck check = check_dataset(planes, planes.ground_truth());
   CHECK_FALSE(check.has_poses);
   CHECK(check.error.pairs == 0);
-  CHECK_FALSE(check.judgements.at(static_cast<std::size_t>(CheckedValue::DepthScale)).judged);
-  CHECK_FALSE(check.judgements.at(static_cast<std::size_t>(CheckedValue::PoseDelay)).judged);
+  CHECK(said(check, planes, "depth_scale").outcome == Outcome::NotChecked);
+  CHECK(said(check, planes, "depth_scale").text == "it takes true poses");
+  CHECK(said(check, planes, "pose_delay").outcome == Outcome::NotChecked);
+  CHECK(said(check, planes, "registration").outcome == Outcome::Fits);
+  CHECK(said(check, planes, "depth_delay").outcome == Outcome::Fits);
   CHECK(std::abs(judged(check, CheckedValue::DepthShiftX).best) <= 1);
-  CHECK(check_findings(check, planes).empty());
+  CHECK(findings_text(check, planes).empty());
+}
+
+TEST_CASE("poses of another clock are no poses") {
+  const PlanesRecording planes(12);
+  Trajectory truth = *planes.ground_truth();
+  for (StampedPose& pose : truth) pose.timestamp += 1000;
+  CHECK_FALSE(check_dataset(planes, &truth).has_poses);
+}
+
+TEST_CASE("plates with focal lengths 1.74 times too long: found") {
+  PlanesRecording planes(30);
+  planes.told.fx *= 1.74;
+  planes.told.fy *= 1.74;
+  CHECK(contains(findings_text(check_dataset(planes, planes.ground_truth()), planes), "x too long: fx 11"));
+}
+
+TEST_CASE("a camera that stands still: what it cannot reveal is not checked") {
+  const PlanesRecording planes(30, false);
+  const DatasetCheck check = check_dataset(planes, planes.ground_truth());
+  for (const std::string subject :
+       {"depth_scale", "focal_length", "focal_ratio", "depth_delay", "pose_delay"}) {
+    CAPTURE(subject);
+    CHECK_MESSAGE(said(check, planes, subject).outcome == Outcome::NotChecked,
+                  said(check, planes, subject).text);
+  }
+}
+
+TEST_CASE("check_dataset tells how far it is, and stops when told to") {
+  const PlanesRecording planes(12);
+  std::vector<double> steps;
+  check_dataset(planes, planes.ground_truth(), [&](double done) { return steps.push_back(done), true; });
+  CHECK(std::is_sorted(steps.begin(), steps.end()));
+  CHECK(steps.back() <= 1);
+  CHECK(steps.size() > 8);
+  int asked = 0;
+  const DatasetCheck check =
+      check_dataset(planes, planes.ground_truth(), [&](double) { return ++asked < 3; });
+  CHECK(asked < 10);
+  CHECK(check.judgements.size() == 8);
 }
 
 TEST_CASE("[slow] the real clips as they are: nothing is found wrong") {
@@ -159,8 +212,7 @@ TEST_CASE("[slow] the real clips as they are: nothing is found wrong") {
     const auto dataset = open_dataset(folder);
     const DatasetCheck check = check_dataset(*dataset.recording, dataset.truth());
     CHECK(check.error.pairs >= 15);
-    CHECK_MESSAGE(check_findings(check, *dataset.recording).empty(),
-                  findings_text(check, *dataset.recording));
+    CHECK(findings_text(check, *dataset.recording).empty());
   }
 }
 

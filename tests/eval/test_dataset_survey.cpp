@@ -53,7 +53,8 @@ TEST_CASE("every frame is read: broken ones are named, depths and holes counted"
   Trajectory truth;
   for (double time : {0.05, 0.15, 0.25}) truth.push_back({time, Eigen::Isometry3d::Identity()});
   int last = 0;
-  const DatasetSurvey survey = survey_dataset(recording, &truth, [&](int done) { return (last = done) > 0; });
+  const DatasetSurvey survey =
+      survey_dataset(recording, &truth, 2.5, [&](int done) { return (last = done) > 0; });
   CHECK(last == 4);
   CHECK(survey.frames == 4);
   REQUIRE(survey.unreadable.size() == 1);
@@ -65,5 +66,7 @@ TEST_CASE("every frame is read: broken ones are named, depths and holes counted"
   CHECK(survey.depth->near == doctest::Approx(1).epsilon(0.03));
   CHECK(survey.depth->median == doctest::Approx(2).epsilon(0.03));
   CHECK(survey.depth->far == doctest::Approx(4).epsilon(0.03));
-  CHECK(survey_dataset(recording, &truth, [](int done) { return done < 2; }).frames == 2);
+  CHECK(survey.depth->beyond == doctest::Approx(1.0 / 3));
+  CHECK(survey.poses == 3);
+  CHECK(survey_dataset(recording, &truth, 2.5, [](int done) { return done < 2; }).frames == 2);
 }

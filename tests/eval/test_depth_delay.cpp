@@ -3,8 +3,8 @@
 
 #include <cmath>
 
+#include "engine/sources/frame_stream.h"
 #include "engine/sources/open_dataset.h"
-#include "engine/types/error.h"
 #include "tests/eval/planes.h"
 #include "tests/support/input_files.h"
 
@@ -39,55 +39,93 @@ class Paired : public PlanesRecording {
   double delay_, added_;
 };
 
-double estimated(double delay) {
-  return estimate_depth_delay(Paired(delay, 0),
-                              [&](double added) { return std::make_unique<Paired>(delay, added); });
+/// Some of a recording's frames, smaller.
+class PartOf : public Recording {
+ public:
+  PartOf(const Recording& whole, int start, int count, double scale)
+      : whole_(whole), start_(start), count_(count), scale_(scale) {}
+
+  std::string name() const override { return whole_.name(); }
+  std::string format() const override { return whole_.format(); }
+  int count() const override { return count_; }
+  Intrinsics intrinsics() const override { return whole_.intrinsics().scaled(scale_); }
+  double depth_unit() const override { return whole_.depth_unit(); }
+  double timestamp(int i) const override { return whole_.timestamp(start_ + i); }
+  double depth_timestamp(int i) const override { return whole_.depth_timestamp(start_ + i); }
+  LoadedFrame load(int i) const override {
+    LoadedFrame loaded = whole_.load(start_ + i);
+    if (loaded.frame) loaded.frame = resize_frame(*loaded.frame, scale_);
+    return loaded;
+  }
+
+ private:
+  const Recording& whole_;
+  int start_, count_;
+  double scale_;
+};
+
+DepthDelay estimated(double delay) {
+  return estimate_depth_delay(Paired(delay, 0));
 }
 
 }  // namespace
 
-TEST_CASE("depth images that are taken earlier or later than their stamps say: by how much is found") {
-  for (double delay : {-0.021, -0.033, 0.04, 0.05}) {
+TEST_CASE("depth images that are taken earlier or later than their stamps say: by how much, and how surely") {
+  for (double delay : {-0.021, -0.033, 0.0, 0.01, 0.04, 0.05}) {
     CAPTURE(delay);
-    CHECK(std::abs(estimated(delay) - delay) < 0.006);
+    const DepthDelay found = estimated(delay);
+    CHECK(found.known());
+    CHECK(found.error < 0.008);
+    CHECK(std::abs(found.value - delay) < std::max(0.004, 3 * found.error));
+    CHECK(std::abs(found.usable()) <= std::abs(found.value));
   }
 }
 
+TEST_CASE("a delay is used as far as it is certain") {
+  DepthDelay delay{0.02, 0.001, 0.033};
+  CHECK(delay.usable() == doctest::Approx(0.02).epsilon(0.01));
+  delay.error = 0.008;
+  CHECK(delay.usable() < 0.018);
+  CHECK(delay.usable() > 0.012);
+  delay.error = 0.011;
+  CHECK(delay.usable() == 0);
+  delay.value = 0.05;
+  delay.error = 0.02;
+  CHECK_FALSE(delay.known());
+  CHECK(delay.usable() == 0);
+}
+
+TEST_CASE("nothing is known where the camera stands still, where frames are too few, or where it is ended") {
+  CHECK_FALSE(estimate_depth_delay(PlanesRecording(40, false)).known());
+  CHECK_FALSE(estimate_depth_delay(PlanesRecording(5)).known());
+  CHECK_FALSE(estimate_depth_delay(PlanesRecording(1)).known());
+  CHECK_FALSE(estimate_depth_delay(Paired(0.04, 0), [](double) { return false; }).known());
+}
+
+TEST_CASE("depth images have stamps of their own, or have not") {
+  CHECK(has_depth_stamps(Paired(0, 0)));
+  CHECK_FALSE(has_depth_stamps(PlanesRecording(5)));
+}
+
 TEST_CASE(
-    "depth images whose nearest partner is the right one, and sequences without such stamps: no delay") {
-  CHECK(estimated(0) == 0);
-  CHECK(estimated(0.01) == 0);
-  const auto open = [](double) -> std::unique_ptr<Recording> {
-    FAIL("opened, though depth images have no stamps of their own");
-    return nullptr;
-  };
-  CHECK(estimate_depth_delay(PlanesRecording(30), open) == 0);
-}
-
-TEST_CASE("nothing fits together one image earlier or later: no delay") {
-  const auto open = [](double) -> std::unique_ptr<Recording> { throw InputError("no pairs"); };
-  CHECK(estimate_depth_delay(Paired(0.04, 0), open) == 0);
-}
-
-TEST_CASE("too few frames: no delay") {
-  const auto open = [](double added) { return std::make_unique<Paired>(0.03, added); };
-  class Short : public Paired {
-   public:
-    using Paired::Paired;
-    int count() const override { return 5; }
-  };
-  CHECK(estimate_depth_delay(Short(0.03, 0), open) == 0);
-}
-
-TEST_CASE(
-    "[slow] fr1_xyz: depth images are about two thirds of a frame late, by edges as by the true poses") {
+    "[slow] fr1_xyz whole, in parts and in small: depth images are 20 ms late, by edges as by the true "
+    "poses") {
   const auto folder = test::real_clip("tum_fr1_xyz");
   if (folder.empty()) return;
-  const auto open = [&](double added) { return open_dataset(folder, "tum", added).recording; };
-  const double delay = estimate_depth_delay(*open(0), open);
-  CHECK(delay < -0.015);
-  CHECK(delay > -0.03);
-  // Taken at its word, the estimate leaves nothing to be found.
-  const auto again = [&](double added) { return open(delay + added); };
-  CHECK(estimate_depth_delay(*open(delay), again) == 0);
+  const Dataset dataset = open_dataset(folder);
+  struct Cut {
+    int start, count;
+    double scale;
+  };
+  for (const Cut& cut : {Cut{0, 150, 1}, Cut{0, 50, 1}, Cut{50, 50, 1}, Cut{100, 50, 1}, Cut{0, 150, 0.25},
+                         Cut{50, 50, 0.25}, Cut{0, 40, 0.25}, Cut{0, 50, 0.25}}) {
+    CAPTURE(cut.start);
+    CAPTURE(cut.count);
+    CAPTURE(cut.scale);
+    const DepthDelay delay =
+        estimate_depth_delay(PartOf(*dataset.recording, cut.start, cut.count, cut.scale));
+    // Where it is far off, the error says so.
+    CHECK(std::abs(delay.value + 0.0205) < std::max(0.003, 3.5 * delay.error));
+    if (cut.count >= 50 && cut.scale == 1) CHECK(delay.error < 0.003);
+  }
 }

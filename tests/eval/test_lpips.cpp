@@ -67,6 +67,13 @@ TEST_CASE("networks and images that LPIPS cannot use are refused by name") {
   CHECK(contains(input_error([&] { Lpips(folder / "none.onnx"); }), "none.onnx"));
   const auto broken = folder.write("broken.onnx", "no network at all");
   CHECK(contains(input_error([&] { Lpips{broken}; }), "broken.onnx"));
+  OnnxNetwork huge;
+  huge.inputs = {"in0", "in1"};
+  huge.input_shape = {1, 3, kHeight, kWidth};
+  huge.constants = {{"weights", {100000, 100000, 3, 3}, {1, 2}}};
+  huge.nodes = {{"Conv", {"in0", "weights"}, "distance", {{"kernel_shape", {3, 3}}}}};
+  const auto claims = folder.write("huge.onnx", to_onnx(huge));
+  CHECK(contains(input_error([&] { Lpips{claims}; }), "its constant weights is to have 9e+10 values in "));
   const auto file = folder.write("names.onnx", small_network({"left", "right"}));
   const cv::Mat image = image_of(0, 0, 0);
   Lpips other(file);

@@ -86,7 +86,7 @@ TEST_CASE("ATE on real trajectories equals that of Horn's quaternion method") {
     REQUIRE(truth.size() >= 20);
     for (uint32_t seed : {1u, 2u, 3u}) {
       const Trajectory estimate = disturbed(truth, seed);
-      const TrajectoryMetrics metrics = evaluate_trajectory(estimate, truth, 1e-5);
+      const TrajectoryMetrics metrics = evaluate_trajectory(estimate, truth, {.max_difference = 1e-5});
       REQUIRE(metrics.pairs == static_cast<int>(truth.size()));
       const double expected = horn_ate(positions(estimate), positions(truth));
       CHECK(expected > 0.005);

@@ -232,6 +232,66 @@ TEST_CASE("true poses that are unknown are skipped, by ATE and by both RPE") {
   CHECK(metrics.ate.max < 1e-9);
   CHECK(metrics.rpe_frame.translation < 1e-9);
   // The stamps are whole seconds here: 49 steps, less the two into and out of each gap.
-  CHECK(metrics.rpe_second.motions == 45);
-  CHECK(metrics.rpe_second.translation < 1e-9);
+  const RelativeError second = relative_error(associate(estimate, truth), 1.0);
+  CHECK(second.motions == 45);
+  CHECK(second.translation < 1e-9);
+}
+
+TEST_CASE("where stamps only count frames there is no error per second") {
+  Trajectory truth = make_curve(10);
+  CHECK(evaluate_trajectory(truth, truth).rpe_frame.motions == 9);
+  CHECK(evaluate_trajectory(truth, truth).rpe_second.motions == 0);
+  for (StampedPose& pose : truth) pose.timestamp += 0.25;
+  CHECK(evaluate_trajectory(truth, truth).rpe_second.motions == 9);
+}
+
+TEST_CASE("a similarity finds the scale of an estimate, and no alignment takes it as it is") {
+  const Trajectory truth = make_curve(50);
+  Trajectory estimate = moved(truth, some_motion());
+  for (StampedPose& pose : estimate) pose.camera_to_world.translation() *= 0.4;
+  const TrajectoryMetrics similar =
+      evaluate_trajectory(estimate, truth, {.alignment = Alignment::Similarity});
+  CHECK(similar.scale == doctest::Approx(2.5).epsilon(1e-9));
+  CHECK(similar.ate.max < 1e-9);
+  CHECK(similar.rpe_frame.translation < 1e-9);
+  CHECK(similar.alignment.isApprox(some_motion().inverse(), 1e-9));
+
+  const TrajectoryMetrics rigid = evaluate_trajectory(estimate, truth);
+  CHECK(rigid.scale == 1);
+  CHECK(rigid.ate.rmse > 0.3);
+
+  Trajectory beside = truth;
+  for (StampedPose& pose : beside) pose.camera_to_world.translation() += Eigen::Vector3d(3, 0, 4);
+  const TrajectoryMetrics plain = evaluate_trajectory(beside, truth, {.alignment = Alignment::None});
+  CHECK(plain.ate.rmse == doctest::Approx(5));
+  CHECK(plain.alignment.isApprox(Eigen::Isometry3d::Identity()));
+}
+
+TEST_CASE("a camera that stands still has no scale") {
+  const Trajectory truth = make_curve(5);
+  Trajectory still = truth;
+  for (StampedPose& pose : still) pose.camera_to_world.translation() = Eigen::Vector3d(1, 2, 3);
+  const TrajectoryComparison similar{.alignment = Alignment::Similarity};
+  CHECK_THROWS_WITH_AS(evaluate_trajectory(still, truth, similar),
+                       doctest::Contains("the estimated camera stands still"), InputError);
+  CHECK_THROWS_WITH_AS(evaluate_trajectory(truth, still, similar),
+                       doctest::Contains("the true camera stands still"), InputError);
+}
+
+TEST_CASE("poses that no stamps bring together are refused with how far apart the clocks are") {
+  const Trajectory truth = make_curve(10);
+  Trajectory estimate = truth;
+  for (StampedPose& pose : estimate) pose.timestamp += 1000.5;
+  CHECK_THROWS_WITH_AS(evaluate_trajectory(estimate, truth),
+                       doctest::Contains("no pose of the truth is near one of the estimate (within 0.02 s): "
+                                         "clocks differ by 1000.500 s; the estimate has stamps from 1000.500 "
+                                         "to 1009.500, the truth from 0.000 to 9.000"),
+                       InputError);
+  for (StampedPose& pose : estimate) pose.timestamp -= 1000.2;
+  CHECK_THROWS_WITH_AS(evaluate_trajectory(estimate, truth),
+                       doctest::Contains("the nearest stamps are 0.300 s apart"), InputError);
+  CHECK_THROWS_WITH_AS(evaluate_trajectory({unknown(1), unknown(2)}, truth),
+                       doctest::Contains("the estimate has no pose that is known"), InputError);
+  CHECK_THROWS_WITH_AS(evaluate_trajectory(estimate, {unknown(1)}),
+                       doctest::Contains("the truth has no pose that is known"), InputError);
 }

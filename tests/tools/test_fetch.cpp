@@ -1,6 +1,7 @@
 // Downloads from a server on this machine, and what comes out of the archives.
 #include <archive.h>
 #include <archive_entry.h>
+#include <fmt/format.h>
 
 #include <map>
 
@@ -55,6 +56,30 @@ std::string pack(const std::map<std::string, std::string>& files, bool zip) {
     archive_write_data(writer, text.data(), text.size());
     archive_entry_free(entry);
   }
+  archive_write_close(writer);
+  archive_write_free(writer);
+  return read_file(file);
+}
+
+/// A tar with one entry that is no file of text: its type, and where it links to.
+std::string pack_special(const std::string& name, unsigned type, const std::string& target = "",
+                         bool hard = false) {
+  const TemporaryFolder folder;
+  const std::string file = folder / "archive";
+  archive* writer = archive_write_new();
+  archive_write_set_format_pax_restricted(writer);
+  archive_write_open_filename(writer, file.c_str());
+  archive_entry* entry = archive_entry_new();
+  archive_entry_set_pathname(entry, name.c_str());
+  archive_entry_set_filetype(entry, static_cast<__LA_MODE_T>(type));
+  archive_entry_set_perm(entry, 0644);
+  if (hard) {
+    archive_entry_set_hardlink(entry, target.c_str());
+  } else if (!target.empty()) {
+    archive_entry_set_symlink(entry, target.c_str());
+  }
+  archive_write_header(writer, entry);
+  archive_entry_free(entry);
   archive_write_close(writer);
   archive_write_free(writer);
   return read_file(file);
@@ -177,6 +202,73 @@ TEST_CASE("archives are unpacked; damaged ones, and entries that lead out of the
   CHECK_FALSE(std::filesystem::exists(folder / "evil.txt"));
   const auto none = folder.write("none.zip", "no archive");
   CHECK(contains(input_error([&] { unpack(none, folder / "none", kNoProgress); }), "none.zip"));
+}
+
+TEST_CASE("links that lead out of the folder, pipes and devices are not made") {
+  const TemporaryFolder folder;
+  int count = 0;
+  const auto error = [&](const std::string& bytes) {
+    const std::string name = fmt::format("a{}", ++count);
+    const auto file = folder.write(name + ".tar", bytes);
+    const std::string message = input_error([&] { unpack(file, folder / name, kNoProgress); });
+    if (!message.empty()) CHECK(std::filesystem::is_empty(folder / name));
+    return message;
+  };
+  CHECK(
+      contains(error(pack_special("x", AE_IFLNK, "/etc/passwd")), "holds x, which leads out of its folder"));
+  CHECK(contains(error(pack_special("d/x", AE_IFLNK, "../../y")), "leads out of its folder"));
+  CHECK(contains(error(pack_special("d/x", AE_IFLNK, "z/../../../y")), "leads out of its folder"));
+  CHECK(contains(error(pack_special("x", AE_IFREG, "../a.tar", true)), "leads out of its folder"));
+  CHECK(contains(error(pack_special("x", AE_IFREG, "/etc/passwd", true)), "leads out of its folder"));
+  CHECK(contains(error(pack_special("x", AE_IFIFO)), "holds x, a pipe or a device"));
+  CHECK(contains(error(pack_special("x", AE_IFCHR)), "a pipe or a device"));
+  CHECK(error(pack_special("d/x", AE_IFLNK, "../y")).empty());
+  CHECK(std::filesystem::read_symlink(folder / "a8/d/x") == "../y");
+}
+
+TEST_CASE("the folder to unpack into may lie behind dots and links") {
+  const TemporaryFolder folder;
+  const auto file = folder.write("good.zip", pack({{"a/b.txt", "text"}}, true));
+  std::filesystem::create_directories(folder / "work");
+  CHECK(unpack(file, folder / "work/../data", kNoProgress));
+  CHECK(read_file(folder / "data/a/b.txt") == "text");
+  std::filesystem::create_directory_symlink(folder / "work", folder / "link");
+  CHECK(unpack(file, folder / "link/data", kNoProgress));
+  CHECK(read_file(folder / "work/data/a/b.txt") == "text");
+
+  const TestServer server({.body = pack({{"chess/readme.txt", "outer"}}, true)});
+  const PublicDataset dataset{"7scenes/chess", server.url("chess.zip"), "chess", "terms", ""};
+  const FetchProgress go_on = [](const std::string&, uint64_t, uint64_t) { return true; };
+  CHECK(fetch_dataset(dataset, folder / "work/../link/more", go_on) == Fetched::Complete);
+  CHECK(read_file(folder / "work/more/chess/readme.txt") == "outer");
+}
+
+TEST_CASE("archives that grow beyond their bound are refused, and nothing is left of them") {
+  const TemporaryFolder folder;
+  const auto bomb = folder.write("bomb.zip", pack({{"zeros", std::string(3000000, '\0')}}, true));
+  CHECK(contains(input_error([&] { unpack(bomb, folder / "a", kNoProgress, 1000000); }),
+                 "unpacks to more than 1 MB"));
+  std::map<std::string, std::string> many;
+  for (int i = 0; i < 300; ++i) many[std::to_string(i)] = "";
+  const auto empty = folder.write("empty.tgz", pack(many, false));
+  CHECK(contains(input_error([&] { unpack(empty, folder / "b", kNoProgress, 1000000); }),
+                 "unpacks to more than"));
+  CHECK(unpack(bomb, folder / "c", kNoProgress));  // small enough for any disk
+
+  const TestServer server({.body = pack({{"chess/zeros", std::string(80000000, '\0')}}, true)});
+  const PublicDataset dataset{"7scenes/chess", server.url("chess.zip"), "chess", "terms", ""};
+  const FetchProgress go_on = [](const std::string&, uint64_t, uint64_t) { return true; };
+  CHECK(contains(input_error([&] { fetch_dataset(dataset, folder / "data", go_on); }),
+                 "50 times its own size"));
+  CHECK_FALSE(std::filesystem::exists(folder / "data/chess"));
+  CHECK_FALSE(std::filesystem::exists(folder / "data/chess.unpacking"));
+}
+
+TEST_CASE("datasets come encrypted") {
+  for (const PublicDataset& dataset : public_datasets()) {
+    CAPTURE(dataset.name);
+    CHECK(dataset.url.starts_with("https://"));
+  }
 }
 
 TEST_CASE("fetch lists what there is, tells of ScanNet's form, and names similar datasets") {

@@ -16,6 +16,7 @@ namespace {
 constexpr long kConnectSeconds = 30;
 constexpr long kSlowestBytes = 1000;  // a second, over kSlowSeconds; slower is taken for a dead connection
 constexpr long kSlowSeconds = 60;
+constexpr long kMostRedirects = 10;
 constexpr long kOk = 200, kPartial = 206, kRangeNotSatisfiable = 416;
 
 struct CloseFile {
@@ -52,6 +53,7 @@ class Transfer {
   }
 
   bool disk_failed() const { return disk_failed_; }
+  bool too_large() const { return too_large_; }
   bool stopped() const { return stopped_; }
   /// Bytes that this attempt brought.
   uint64_t received() const { return received_; }
@@ -62,7 +64,10 @@ class Transfer {
     CURL* curl = curl_.get();
     curl_easy_setopt(curl, CURLOPT_URL, request_.url.c_str());
     curl_easy_setopt(curl, CURLOPT_PROTOCOLS_STR, "http,https");
-    curl_easy_setopt(curl, CURLOPT_REDIR_PROTOCOLS_STR, "http,https");
+    // No step down: what starts encrypted stays so.
+    const bool secure = request_.url.starts_with("https:");
+    curl_easy_setopt(curl, CURLOPT_REDIR_PROTOCOLS_STR, secure ? "https" : "http,https");
+    curl_easy_setopt(curl, CURLOPT_MAXREDIRS, kMostRedirects);
     curl_easy_setopt(curl, CURLOPT_FOLLOWLOCATION, 1L);
     curl_easy_setopt(curl, CURLOPT_FAILONERROR, 1L);
     curl_easy_setopt(curl, CURLOPT_NOSIGNAL, 1L);
@@ -88,9 +93,20 @@ class Transfer {
     auto* transfer = static_cast<Transfer*>(self);
     const auto start = transfer->start_;
     const auto whole = total > 0 ? start + static_cast<uint64_t>(total) : 0;
+    if (total > 0 && !transfer->fits(static_cast<uint64_t>(total))) return 1;
     const bool go_on = !transfer->progress_ || transfer->progress_(start + static_cast<uint64_t>(now), whole);
     if (!go_on) transfer->stopped_ = true;
     return go_on ? 0 : 1;
+  }
+
+  /// Whether there is room for what comes; asked once, with the bytes of this attempt.
+  bool fits(uint64_t coming) {
+    if (asked_) return true;
+    asked_ = true;
+    std::error_code error;
+    const std::filesystem::space_info space = std::filesystem::space(part_.parent_path(), error);
+    too_large_ = !error && coming > space.available;
+    return !too_large_;
   }
 
   std::size_t store(const char* bytes, std::size_t count) {
@@ -113,6 +129,8 @@ class Transfer {
   uint64_t start_ = 0;
   uint64_t received_ = 0;
   bool disk_failed_ = false;
+  bool asked_ = false;
+  bool too_large_ = false;
   bool stopped_ = false;
 };
 
@@ -124,6 +142,8 @@ Attempt attempt(const DownloadRequest& request, const std::filesystem::path& par
   Transfer transfer(request, part, progress);
   const CURLcode result = transfer.run();
   if (transfer.stopped()) return Attempt::Stopped;
+  if (transfer.too_large())
+    throw InputError(part, "the disk has no room for what is to come; free some first");
   if (transfer.disk_failed()) throw InputError(part, "cannot be written; is the disk full?");
   if (result == CURLE_OK) return Attempt::Complete;
   if (result == CURLE_HTTP_RETURNED_ERROR) {

@@ -1,6 +1,7 @@
 // surefield fetch: downloads public sequences from their official addresses.
 #include <fmt/format.h>
 
+#include <filesystem>
 #include <memory>
 
 #include "engine/types/error.h"
@@ -44,6 +45,11 @@ int fetch(const FetchOptions& options) {
   const PublicDataset& dataset = find_public_dataset(options.name);
   fmt::print("terms    {}\nfrom     {}\nchecksum {}\n", dataset.terms, dataset.url,
              dataset.sha256.empty() ? "none is published" : "SHA-256 " + dataset.sha256);
+  const std::filesystem::path part = archive_of(dataset, options.out).string() + ".part";
+  std::error_code error;
+  if (const auto kept = std::filesystem::file_size(part, error); !error)
+    fmt::print("kept     {:.0f} MB of an earlier download, which goes on there\n",
+               static_cast<double>(kept) / kBytesPerMegabyte);
   std::fflush(stdout);
   Fetched result;
   {
@@ -58,7 +64,10 @@ int fetch(const FetchOptions& options) {
     });
   }
   const std::filesystem::path folder = std::filesystem::path(options.out) / dataset.folder;
-  if (result == Fetched::Stopped) return kInterrupted;
+  if (result == Fetched::Stopped) {
+    fmt::print(stderr, "surefield: stopped; what has arrived is kept, the same command goes on with it\n");
+    return kInterrupted;
+  }
   fmt::print("{}   {}\n", result == Fetched::AlreadyThere ? "present" : "ready  ", folder.string());
   return kSuccess;
 }

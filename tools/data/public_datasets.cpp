@@ -43,7 +43,7 @@ std::vector<PublicDataset> make_list() {
     list.push_back(
         {fmt::format("7scenes/{}", scene),
          fmt::format(
-             "http://download.microsoft.com/download/2/8/5/28564B23-0828-408F-8631-23B1EFF1DAC8/{}.zip",
+             "https://download.microsoft.com/download/2/8/5/28564B23-0828-408F-8631-23B1EFF1DAC8/{}.zip",
              scene),
          scene, kSevenScenesTerms, ""});
   }
@@ -68,9 +68,15 @@ bool unpack_into_place(const std::filesystem::path& archive, const std::filesyst
                        const TransferProgress& progress) {
   const std::filesystem::path staging = place.string() + ".unpacking";
   std::filesystem::remove_all(staging);
-  if (!unpack(archive, staging, progress) || !unpack_inner(staging, progress)) {
-    std::filesystem::remove_all(staging);
-    return false;
+  try {
+    if (!unpack(archive, staging, progress) || !unpack_inner(staging, progress)) {
+      std::filesystem::remove_all(staging);
+      return false;
+    }
+  } catch (...) {
+    std::error_code ignored;
+    std::filesystem::remove_all(staging, ignored);
+    throw;
   }
   const std::filesystem::path top = staging / place.filename();
   std::error_code error;
@@ -108,6 +114,10 @@ const PublicDataset& find_public_dataset(const std::string& name) {
                    "; see surefield fetch --list");
 }
 
+std::filesystem::path archive_of(const PublicDataset& dataset, const std::filesystem::path& out) {
+  return out / std::filesystem::path(dataset.url).filename();
+}
+
 Fetched fetch_dataset(const PublicDataset& dataset, const std::filesystem::path& out,
                       const FetchProgress& progress) {
   std::error_code error;
@@ -118,7 +128,7 @@ Fetched fetch_dataset(const PublicDataset& dataset, const std::filesystem::path&
   const auto step = [&](const char* name) {
     return [&progress, name](uint64_t done, uint64_t total) { return progress(name, done, total); };
   };
-  const std::filesystem::path archive = out / std::filesystem::path(dataset.url).filename();
+  const std::filesystem::path archive = archive_of(dataset, out);
   if (!download({dataset.url, archive, dataset.sha256}, step("downloading"))) return Fetched::Stopped;
   if (!unpack_into_place(archive, place, step("unpacking"))) return Fetched::Stopped;
   std::filesystem::remove(archive);

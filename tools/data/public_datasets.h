@@ -30,6 +30,9 @@ using FetchProgress = std::function<bool(const std::string& step, uint64_t done,
 /// What fetch_dataset() did.
 enum class Fetched { Complete, AlreadyThere, Stopped };
 
+/// Where the archive of a dataset is kept until it is unpacked.
+std::filesystem::path archive_of(const PublicDataset& dataset, const std::filesystem::path& out);
+
 /// Downloads the archive into `out`, which is created, unpacks it there (archives inside it too) and removes
 /// it. The folder appears when it is complete. Throws InputError as download() and unpack() do.
 Fetched fetch_dataset(const PublicDataset& dataset, const std::filesystem::path& out,
