@@ -1,5 +1,7 @@
 #include "engine/slam/frame_history.h"
 
+#include "engine/types/median.h"
+
 namespace surefield {
 
 void FrameHistory::add(const FrameReport& report) {
@@ -34,6 +36,19 @@ std::vector<FrameReport> FrameHistory::reports() const {
   std::vector<FrameReport> reports;
   for (const FrameRecord& record : records_) reports.push_back(record.report);
   return reports;
+}
+
+std::optional<Eigen::Vector3f> FrameHistory::usual_gains() const {
+  std::vector<float> gains[3];
+  for (const FrameRecord& record : records_)
+    for (int c = 0; c < 3 && !record.report.lost; ++c) gains[c].push_back(record.report.gains[c]);
+  if (gains[0].empty()) return std::nullopt;
+  const Eigen::Vector3f usual(median(gains[0]), median(gains[1]), median(gains[2]));
+  return usual == Eigen::Vector3f::Ones() ? std::nullopt : std::optional(usual);
+}
+
+void FrameHistory::multiply_gains(const Eigen::Vector3f& factors) {
+  for (FrameRecord& record : records_) record.report.gains = record.report.gains.cwiseProduct(factors);
 }
 
 }  // namespace surefield

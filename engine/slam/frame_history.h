@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "engine/slam/frame_report.h"
@@ -31,6 +32,7 @@ class FrameHistory {
   bool empty() const { return records_.empty(); }
   std::size_t size() const { return records_.size(); }
   FrameReport& last_report() { return records_.back().report; }
+  const FrameReport& last_report() const { return records_.back().report; }
   /// Frames since the last one that became a keyframe, the next one included.
   std::size_t next_after_keyframe() const { return records_.size() - last_keyframe_; }
 
@@ -39,6 +41,10 @@ class FrameHistory {
   /// All of them, camera to world.
   Trajectory trajectory() const;
   std::vector<FrameReport> reports() const;
+  /// The medians of the gains of the frames that are not lost; none where those are 1.
+  std::optional<Eigen::Vector3f> usual_gains() const;
+  /// Multiplies the gains of all frames.
+  void multiply_gains(const Eigen::Vector3f& factors);
 
  private:
   const KeyframeGraph& keyframes_;

@@ -14,6 +14,10 @@ struct FrameReport {
   bool keyframe = false;
   bool lost = false;  ///< tracking failed even after the re-tries; the pose is the best found
   int retries = 0;    ///< other starting poses that were tried
+  /// Times these, one a channel, its colours are those of the map; 1 where the light is steady
+  /// (docs/method.md, "Light"). Of a run that is finished, the map with the exposure that Slam::map() gives
+  /// it.
+  Eigen::Vector3f gains = Eigen::Vector3f::Ones();
   double tracking_loss = 0;
   double valid_fraction = 0;  ///< pixels that took part in tracking, of those with sensor depth
   int tracking_iterations = 0;

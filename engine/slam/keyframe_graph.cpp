@@ -6,7 +6,6 @@
 namespace surefield {
 
 void KeyframeGraph::add(Keyframe keyframe, Eigen::VectorXf descriptor) {
-  if (!keyframes_.empty()) keyframe.gains = keyframes_.back().gains;
   keyframes_.push_back(std::move(keyframe));
   covisibility_.add(std::move(descriptor));
 }
@@ -30,8 +29,14 @@ void KeyframeGraph::set_window(std::vector<int> members, int most_references) {
 
 std::vector<TrackingReference> KeyframeGraph::references() const {
   std::vector<TrackingReference> references;
-  for (int k : references_) references.push_back({keyframes_[k].frame, keyframes_[k].camera});
+  for (int k : references_) references.push_back({keyframes_[k].tracked, keyframes_[k].camera});
   return references;
+}
+
+std::vector<LitView> KeyframeGraph::lit_views() const {
+  std::vector<LitView> views;
+  for (int k : window_) views.push_back({keyframes_[k].grid, keyframes_[k].light, keyframes_[k].camera});
+  return views;
 }
 
 }  // namespace surefield

@@ -5,6 +5,7 @@
 
 #include "engine/slam/covisibility.h"
 #include "engine/slam/keyframes.h"
+#include "engine/slam/light.h"
 #include "engine/slam/settings.h"
 
 namespace surefield {
@@ -28,7 +29,7 @@ class KeyframeGraph {
   /// The descriptor of a frame that may become a keyframe, empty where images are not described. Changes
   /// nothing; throws what the descriptor throws.
   Eigen::VectorXf describe(const Frame& frame) { return covisibility_.describe(frame); }
-  /// Adds a keyframe, with its descriptor; its colours have the exposure of the one before it.
+  /// Adds a keyframe, with its descriptor.
   void add(Keyframe keyframe, Eigen::VectorXf descriptor);
   void set_gains(int k, const Eigen::Vector3f& gains) { keyframes_[k].gains = gains; }
 
@@ -51,6 +52,9 @@ class KeyframeGraph {
   const std::vector<int>& window() const { return window_; }
   /// The keyframes whose images a frame is aligned to beside the map, the newest first.
   std::vector<TrackingReference> references() const;
+  /// The keyframes by which the exposure of a frame is told: those of the last window. Good until the next
+  /// change.
+  std::vector<LitView> lit_views() const;
 
  private:
   Covisibility covisibility_;

@@ -27,7 +27,7 @@ std::vector<Eigen::Vector3f> sample_points(const Frame& frame, const Intrinsics&
 
 Keyframe make_keyframe(const Frame& frame, FrameHandle handle, const Camera& camera,
                        std::vector<Eigen::Vector3f> points) {
-  Keyframe keyframe{frame.index, frame.timestamp, handle, camera, std::move(points)};
+  Keyframe keyframe{frame.index, frame.timestamp, handle, handle, camera, std::move(points)};
   for (const Eigen::Vector3f& point : keyframe.points) keyframe.middle += point.cast<double>();
   if (!keyframe.points.empty()) keyframe.middle /= static_cast<double>(keyframe.points.size());
   return keyframe;

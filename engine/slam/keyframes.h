@@ -4,6 +4,7 @@
 #include <random>
 #include <vector>
 
+#include "engine/slam/colour_grid.h"
 #include "engine/splat/engine.h"
 #include "engine/types/frame.h"
 
@@ -11,13 +12,16 @@ namespace surefield {
 
 /// A frame that stays for mapping.
 struct Keyframe {
-  int index = 0;         ///< Frame::index
-  double timestamp = 0;  ///< seconds
-  FrameHandle frame = 0;
+  int index = 0;            ///< Frame::index
+  double timestamp = 0;     ///< seconds
+  FrameHandle frame = 0;    ///< that mapping compares the map with
+  FrameHandle tracked = 0;  ///< that frames are aligned to: in the exposure of the map
   Camera camera;
   std::vector<Eigen::Vector3f> points;               ///< a coarse grid of its depth, camera frame, metres
   Eigen::Vector3d middle = Eigen::Vector3d::Zero();  ///< of those points
   Eigen::Vector3f gains = Eigen::Vector3f::Ones();   ///< times these its colours are the map's (exposure.h)
+  ColourGrid grid;                                   ///< of the image as the camera took it
+  Eigen::Vector3f light = Eigen::Vector3f::Ones();   ///< times these that image's are the map's (light.h)
 };
 
 /// A keyframe that sees `points`.

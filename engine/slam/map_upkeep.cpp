@@ -20,7 +20,9 @@ void MapUpkeep::spawn(const Frame& frame) {
   const Camera& camera = keyframes_[newest].camera;
   const RenderImages rendered = engine_.render(camera);
   Eigen::Vector3f gains = keyframes_[newest].gains;
-  if (settings_.keyframes.exposure) gains = fit_gains(frame, rendered, settings_.depth_max).value_or(gains);
+  if (settings_.keyframes.exposure)
+    gains =
+        fit_gains(frame, rendered, settings_.depth_max).value_or(keyframes_[std::max(0, newest - 1)].gains);
   keyframes_.set_gains(newest, gains);
   const GaussianCloud births =
       spawn_gaussians(frame, camera, &rendered, settings_.spawn, settings_.depth_max, gains);
@@ -52,13 +54,14 @@ void MapUpkeep::optimise(const std::vector<int>& order, const std::vector<int>& 
                        std::find(refined.begin(), refined.end(), k) != refined.end(), keyframes_[k].gains});
     steps.push_back(entry->second);
   }
-  const MappingResult result = engine_.optimise(views, steps, settings_.mapping, extent_);
+  const MappingResult result = engine_.optimise(views, steps, settings_.mapping, extent_, stop_);
   for (const auto& [k, view] : view_of_keyframe) keyframes_.move(k, views[view].camera.world_to_camera);
   report.mapping_iterations += result.iterations;
   report.mapping_ms += result.milliseconds;
 }
 
 void MapUpkeep::judge(const std::vector<int>& members, FrameReport& report) {
+  if (stop_.stop_requested()) return;
   std::vector<MappingView> views;
   for (int member : members) views.push_back({keyframes_[member].frame, keyframes_[member].camera, false});
   const JudgeResult result = engine_.judge(views, settings_.mapping);
@@ -67,6 +70,7 @@ void MapUpkeep::judge(const std::vector<int>& members, FrameReport& report) {
 }
 
 void MapUpkeep::densify() {
+  if (stop_.stop_requested()) return;
   DensifySettings densify = settings_.densify;
   densify.extent = extent_;
   densify.seed = random_();

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <random>
+#include <stop_token>
+#include <utility>
 #include <vector>
 
 #include "engine/slam/active_region.h"
@@ -21,8 +23,10 @@ struct MappingPlan {
 class MapUpkeep {
  public:
   /// All of them outlive this; `settings` may change from frame to frame.
-  MapUpkeep(SplatEngine& engine, const SlamSettings& settings, KeyframeGraph& keyframes)
+  /// Where `stop` is asked for, what remains of mapping is left out.
+  MapUpkeep(SplatEngine& engine, const SlamSettings& settings, KeyframeGraph& keyframes, std::stop_token stop)
       : engine_(engine),
+        stop_(std::move(stop)),
         settings_(settings),
         keyframes_(keyframes),
         region_(engine, settings),
@@ -36,8 +40,8 @@ class MapUpkeep {
 
   /// Begins the map with what the first keyframe, `frame`, sees.
   void begin(const Frame& frame);
-  /// Adds what the newest keyframe, `frame`, sees and the map does not show, and settles on the keyframes
-  /// near it that the next steps work with.
+  /// Adds what the newest keyframe, whose mapping image is `frame`, sees and the map does not show, and
+  /// settles on the keyframes near it that the next steps work with.
   void spawn(const Frame& frame);
   /// Those keyframes, the newest included.
   const std::vector<int>& near() const { return region_.near(); }
@@ -53,6 +57,7 @@ class MapUpkeep {
 
  private:
   SplatEngine& engine_;
+  const std::stop_token stop_;
   const SlamSettings& settings_;
   KeyframeGraph& keyframes_;
   ActiveRegion region_;

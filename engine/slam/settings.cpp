@@ -130,6 +130,7 @@ void SlamSettings::bind(ConfigSchema& schema) {
   bind_densify(schema, densify);
   schema.add("lost.loss_jump", &lost.loss_jump, kFactor);
   schema.add("lost.minimum_valid", &lost.minimum_valid, kFraction);
+  schema.add("light.correct_above", &light.correct_above, kFactor);
   schema.document(built_in_configs().at("base.yaml"));
   for (const auto& [old, key] : kRenamed) schema.renamed(old, key);
 }

@@ -43,6 +43,11 @@ struct LossDetectionSettings {
   double minimum_valid = 0.1;
 };
 
+/// What is done where the light changes: `light` in configs/base.yaml.
+struct LightSettings {
+  double correct_above = 0.15;
+};
+
 /// Everything that shapes a run: one field per key of configs/base.yaml, which says what each means, in which
 /// unit, and which values are permitted.
 struct SlamSettings {
@@ -58,6 +63,7 @@ struct SlamSettings {
   KeyframeSettings keyframes;
   SpawnSettings spawn;
   LossDetectionSettings lost;
+  LightSettings light;
 
   /// Binds every key to its field, with its help from configs/base.yaml; the settings must outlive the
   /// schema.

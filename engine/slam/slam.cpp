@@ -21,8 +21,10 @@ FrameReport Slam::feed(const Frame& frame, const Tracked& tracked) {
   s.check_usable();
   s.check_images(frame);
   const bool first = s.history.empty();
+  ColourGrid grid = s.look(frame);
   FrameReport found{.index = frame.index, .timestamp = frame.timestamp};
-  Sighting sighting = first ? s.sight_first(frame, found) : s.sight(frame, found);
+  Sighting sighting =
+      first ? s.sight_first(frame, std::move(grid), found) : s.sight(frame, std::move(grid), found);
   s.history.add(found);
   turn.tell_tracked(tracked);
 
@@ -51,8 +53,13 @@ void Slam::finish() {
     });
   }
   s.pending.reset();
+  s.settle_exposure();
   s.finished = true;
   turn.tell_revision();
+}
+
+void Slam::stop_mapping() {
+  implementation_->stop.request_stop();
 }
 
 bool Slam::usable() const {
@@ -68,6 +75,7 @@ void Slam::change(const SlamSettings& settings) {
   current.spawn = settings.spawn;
   current.densify = settings.densify;
   current.lost = settings.lost;
+  current.light = settings.light;
   current.mapping_iterations = settings.mapping_iterations;
   current.keyframes.interval = settings.keyframes.interval;
   current.keyframes.valid_below = settings.keyframes.valid_below;
@@ -93,12 +101,16 @@ std::vector<int> Slam::window() const {
 
 GaussianCloud Slam::map() const {
   const std::lock_guard lock(implementation_->state);
-  return implementation_->engine.map();
+  GaussianCloud cloud = implementation_->engine.map();
+  scale_colours(cloud, implementation_->map_gains);
+  return cloud;
 }
 
 RenderImages Slam::render(const Camera& camera) const {
   const std::lock_guard lock(implementation_->state);
-  return implementation_->engine.render_whole(camera);
+  RenderImages images = implementation_->engine.render_whole(camera);
+  scale_colours(images, implementation_->map_gains);
+  return images;
 }
 
 uint64_t Slam::revision() const {

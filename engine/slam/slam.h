@@ -27,7 +27,7 @@ struct Frame;
 /// SlamThread (slam_thread.h) feeds without waiting for the map.
 ///
 /// Threads: every method may be called from any thread. feed(), finish(), change() and on_revision() take
-/// turns. All others only read; they wait for a frame in work and are let in, in the order in which they ask,
+/// turns; stop_mapping() does not wait. All others only read; they wait for a frame in work and are let in, in the order in which they ask,
 /// between frames and while feed() or finish() runs a function of the caller. What is returned is a copy.
 ///
 /// Errors: what derives from Error (engine/types/error.h), or std::bad_alloc. Where feed() or finish() throws
@@ -55,20 +55,27 @@ class Slam {
 
   /// Tracks the frame and, if it becomes a keyframe, extends and optimises the map. The images are copied
   /// where they are needed later. Throws UsageError where they do not have the size and type that the
-  /// intrinsics ask for, InputError where the first frame has no valid depth, StateError where no frame may
-  /// be fed any more, and gpu::Error; see above for what has changed then.
+  /// intrinsics ask for, InputError where the first frame has no valid depth, NoImageError where an image
+  /// shows nothing (all black or white) or, in the first second after such images at the beginning, the
+  /// camera's exposure has yet to settle: frames to pass over. Throws StateError where no frame may be fed
+  /// any more, and gpu::Error; see above for what has changed then.
   FrameReport feed(const Frame& frame, const Tracked& tracked = {});
 
   /// Call after the last frame: unless it is a keyframe, it becomes one, so that the map shows all that was
-  /// seen. No frame may be fed after it; calling it again does nothing.
+  /// seen. If the light has changed, the map is given the exposure that most frames have. No frame may be fed
+  /// after it; calling it again does nothing.
   void finish();
+
+  /// From now on mapping steps that remain are left out, those of a frame in work too, so that it ends soon: for a run
+  /// that has to end. Poses and map are what they are then. Waits for nothing.
+  void stop_mapping();
 
   /// Whether frames may be fed: until finish(), or an error in the middle of mapping.
   bool usable() const;
 
-  /// From the next frame on, takes the settings of tracking, mapping, spawning, densification and the loss of
-  /// tracking, the mapping steps per keyframe, and when a frame becomes a keyframe; all others stay as they
-  /// were at the beginning.
+  /// From the next frame on, takes the settings of tracking, mapping, spawning, densification, light and the
+  /// loss of tracking, the mapping steps per keyframe, and when a frame becomes a keyframe; all others stay
+  /// as they were at the beginning.
   void change(const SlamSettings& settings);
 
   /// Poses of all frames so far, camera to world, in the first camera's frame. Keyframes have their refined

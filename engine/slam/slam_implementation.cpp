@@ -29,7 +29,7 @@ Slam::Implementation::Implementation(const SlamSettings& s, const Intrinsics& k,
       engine(options),
       history(keyframes),
       tracker(engine, settings, intrinsics, keyframes, history),
-      upkeep(engine, settings, keyframes) {}
+      upkeep(engine, settings, keyframes, stop.get_token()) {}
 
 void Slam::Implementation::check_usable() const {
   if (broken) throw StateError("an error has left the map half done, so no frame may follow: " + *broken);
@@ -43,23 +43,65 @@ void Slam::Implementation::check_images(const Frame& frame) const {
     throw UsageError("the frame's images do not have the size and type that the intrinsics ask for");
 }
 
-Sighting Slam::Implementation::sight_first(const Frame& frame, FrameReport& report) {
+ColourGrid Slam::Implementation::look(const Frame& frame) {
+  ColourGrid grid = make_colour_grid(frame, settings.depth_max);
+  if (const auto objection = first_light.objection(frame, grid, !history.empty()))
+    throw NoImageError(*objection);
+  return grid;
+}
+
+Sighting Slam::Implementation::sight_first(const Frame& frame, ColourGrid grid, FrameReport& report) {
   scene_extent(frame, settings.depth_max);  // throws where there is none
   report.keyframe = true;
   return {{engine, view_of(frame, settings.depth_max)},
           sample_points(frame, intrinsics, settings.depth_max),
-          keyframes.describe(frame)};
+          keyframes.describe(frame),
+          std::move(grid)};
 }
 
-Sighting Slam::Implementation::sight(const Frame& frame, FrameReport& report) {
-  Sighting sighting{
-      {engine, view_of(frame, settings.depth_max)}, sample_points(frame, intrinsics, settings.depth_max), {}};
+Sighting Slam::Implementation::sight(const Frame& frame, ColourGrid grid, FrameReport& report) {
   const Pose predicted = tracker.predict();
-  upkeep.approach(sighting.points, predicted);
+  const Eigen::Vector3f as_it_is = Eigen::Vector3f::Ones(), before = history.last_report().gains;
+  const auto gains_now = [&] {
+    return find_gains(grid, {intrinsics, predicted}, keyframes.lit_views(), before,
+                      settings.light.correct_above);
+  };
+  if (before != as_it_is) report.gains = gains_now();
+  std::vector<Eigen::Vector3f> points = sample_points(frame, intrinsics, settings.depth_max);
+  upkeep.approach(points, predicted);
+  Sighting sighting{hold(frame, report.gains, predicted), std::move(points), {}, {}};
   tracker.track(sighting.image.handle(), predicted, report);
+  // Exposures wander all the time; only a frame that cannot be tracked for it is corrected.
+  const Eigen::Vector3f gains = report.lost && before == as_it_is ? gains_now() : as_it_is;
+  if (gains != as_it_is) {
+    FrameReport other{.index = report.index, .timestamp = report.timestamp};
+    other.gains = gains;
+    HeldFrame image = hold(frame, gains, predicted);
+    tracker.track(image.handle(), predicted, other);
+    if (!other.lost) {
+      report = other;
+      sighting.image = std::move(image);
+    }
+  }
   report.keyframe = wants_keyframe(report);
   if (report.keyframe) sighting.descriptor = keyframes.describe(frame);
+  sighting.grid = std::move(grid);
   return sighting;
+}
+
+/// The frame for tracking: its images with the colours times these gains, taken from about `predicted`.
+HeldFrame Slam::Implementation::hold(const Frame& frame, const Eigen::Vector3f& gains,
+                                     const Pose& predicted) {
+  return {engine, view_of(expose(frame, gains, predicted), settings.depth_max)};
+}
+
+Frame Slam::Implementation::expose(const Frame& frame, const Eigen::Vector3f& gains, const Pose& pose) const {
+  Frame exposed = frame;
+  if (gains == Eigen::Vector3f::Ones()) return exposed;
+  exposed.colour = apply_gains(frame.colour, gains);
+  if (has_saturated(exposed.colour, gains))
+    brighten_saturated(exposed.colour, engine.render({intrinsics, pose}), gains);
+  return exposed;
 }
 
 bool Slam::Implementation::wants_keyframe(const FrameReport& report) const {
@@ -93,9 +135,9 @@ void Slam::Implementation::extend_map(const Frame& frame, Sighting sighting) {
 }
 
 void Slam::Implementation::map_keyframe(const Frame& frame, Sighting sighting) {
-  add_keyframe(frame, std::move(sighting));
+  const Frame mapped = add_keyframe(frame, std::move(sighting));
   FrameReport& report = history.last_report();
-  upkeep.spawn(frame);
+  upkeep.spawn(mapped);
   const KeyframeWindow window = keyframes.choose_window(upkeep.near());
   const MappingPlan plan = upkeep.plan(window);
   upkeep.optimise(plan.first_half, plan.refined, report);
@@ -106,12 +148,34 @@ void Slam::Implementation::map_keyframe(const Frame& frame, Sighting sighting) {
   keyframes.set_window(window.members, settings.tracking.gauss_newton.references);
 }
 
-void Slam::Implementation::add_keyframe(const Frame& frame, Sighting sighting) {
-  const Camera camera{intrinsics, history.last_report().world_to_camera};
-  keyframes.add(make_keyframe(frame, sighting.image.keep(), camera, std::move(sighting.points)),
-                std::move(sighting.descriptor));
+/// Adds the last frame as a keyframe; returns it with the colours that mapping compares with, which
+/// times the keyframe's gains are those of the map: its own, where the gains do not make lies of saturated
+/// pixels.
+Frame Slam::Implementation::add_keyframe(const Frame& frame, Sighting sighting) {
+  const FrameReport& report = history.last_report();
+  const Camera camera{intrinsics, report.world_to_camera};
+  Keyframe keyframe = make_keyframe(frame, sighting.image.keep(), camera, std::move(sighting.points));
+  keyframe.grid = std::move(sighting.grid);
+  keyframe.light = report.gains;
+  Frame mapped = frame;
+  if (report.gains != Eigen::Vector3f::Ones()) {
+    if (has_saturated(apply_gains(frame.colour, report.gains), report.gains))
+      mapped = expose(frame, report.gains, camera.world_to_camera);
+    else
+      keyframe.gains = report.gains;
+    keyframe.frame = engine.load(view_of(mapped, settings.depth_max));
+  }
+  keyframes.add(std::move(keyframe), std::move(sighting.descriptor));
   history.make_last_keyframe();
   tracker.begin_keyframe();
+  return mapped;
+}
+
+void Slam::Implementation::settle_exposure() {
+  if (const auto gains = history.usual_gains()) {
+    map_gains = gains->cwiseInverse();
+    history.multiply_gains(map_gains);
+  }
 }
 
 /// Notes the size of the map after a frame.

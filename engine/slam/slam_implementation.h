@@ -3,11 +3,13 @@
 #include <atomic>
 #include <exception>
 #include <optional>
+#include <stop_token>
 #include <string>
 #include <thread>
 
 #include "engine/slam/camera_tracker.h"
 #include "engine/slam/fair_mutex.h"
+#include "engine/slam/first_light.h"
 #include "engine/slam/frame_history.h"
 #include "engine/slam/held_frame.h"
 #include "engine/slam/keyframe_graph.h"
@@ -16,11 +18,13 @@
 
 namespace surefield {
 
-/// What a frame that may become a keyframe needs beside its images and its pose.
+/// What a frame that may become a keyframe needs beside its images and its pose; `image` has the exposure of
+/// the map.
 struct Sighting {
   HeldFrame image;
   std::vector<Eigen::Vector3f> points;  ///< sample_points()
   Eigen::VectorXf descriptor;           ///< of a keyframe; empty where images are not described
+  ColourGrid grid;                      ///< of the image as the camera took it
 };
 
 /// The last frame fed, which is no keyframe: finish() may make it one.
@@ -32,6 +36,7 @@ struct PendingFrame {
 /// The parts of a run, and the steps that lead a frame through them: slam.cpp has their order,
 /// slam_implementation.cpp what they do.
 struct Slam::Implementation {
+  std::stop_source stop;  ///< of mapping; from any thread
   SlamSettings settings;
   Intrinsics intrinsics;
   KeyframeGraph keyframes;
@@ -39,6 +44,8 @@ struct Slam::Implementation {
   FrameHistory history;
   CameraTracker tracker;
   MapUpkeep upkeep;
+  FirstLight first_light;
+  Eigen::Vector3f map_gains = Eigen::Vector3f::Ones();  ///< times these the map's colours are shown
   std::optional<PendingFrame> pending;
   bool finished = false;
   std::optional<std::string> broken;  ///< by what mapping ended in the middle
@@ -60,10 +67,18 @@ struct Slam::Implementation {
 
   // Before mapping: these change nothing that a caller sees.
 
+  /// Its coarse picture. Throws NoImageError where the image shows nothing, or the exposure has yet to
+  /// settle.
+  ColourGrid look(const Frame& frame);
   /// The first frame: it stands at the origin and becomes a keyframe.
-  Sighting sight_first(const Frame& frame, FrameReport& report);
-  /// Any other: predicts its pose, tracks it and decides whether it becomes a keyframe.
-  Sighting sight(const Frame& frame, FrameReport& report);
+  Sighting sight_first(const Frame& frame, ColourGrid grid, FrameReport& report);
+  /// Any other: predicts its pose, brings it to the exposure of the map, tracks it and decides whether it
+  /// becomes a keyframe.
+  Sighting sight(const Frame& frame, ColourGrid grid, FrameReport& report);
+  HeldFrame hold(const Frame& frame, const Eigen::Vector3f& gains, const Pose& predicted);
+  /// A frame with its colours times these gains, and what was saturated as bright as the map shows it from
+  /// `pose`.
+  Frame expose(const Frame& frame, const Eigen::Vector3f& gains, const Pose& pose) const;
   bool wants_keyframe(const FrameReport& report) const;
 
   // Mapping, of the last frame of the history.
@@ -84,8 +99,10 @@ struct Slam::Implementation {
   void begin_map(const Frame& frame, Sighting sighting);
   void extend_map(const Frame& frame, Sighting sighting);
   void map_keyframe(const Frame& frame, Sighting sighting);
-  void add_keyframe(const Frame& frame, Sighting sighting);
+  Frame add_keyframe(const Frame& frame, Sighting sighting);
   void measure();
+  /// Gives the map the exposure that most frames have.
+  void settle_exposure();
   void note_break();
   void note_moves(bool told);
 };

@@ -1,7 +1,10 @@
 #include "engine/slam/spawn.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "engine/slam/surface_normal.h"
@@ -60,12 +63,22 @@ BirthShape birth_shape(const Eigen::Vector3d& ray, const Eigen::Vector3d& normal
 
 double scene_extent(const Frame& frame, double depth_max) {
   std::vector<float> depths;
+  float nearest = std::numeric_limits<float>::infinity(), farthest = 0;
   for (int v = 0; v < frame.depth.rows; ++v)
     for (int u = 0; u < frame.depth.cols; ++u) {
       const float z = frame.depth.at<float>(v, u);
-      if (z > 0 && z <= depth_max) depths.push_back(z);
+      if (!(z > 0)) continue;
+      nearest = std::min(nearest, z);
+      farthest = std::max(farthest, z);
+      if (z <= depth_max) depths.push_back(z);
     }
-  if (depths.empty()) throw InputError("the first frame has no valid depth");
+  if (farthest == 0) throw InputError("the first frame has no valid depth: all of its depth image is 0");
+  if (depths.empty()) {
+    throw InputError(fmt::format(
+        "the first frame has no depth up to depth_max, {:g} m: it was read as {:.3g} to {:.3g} m; is depth_unit, the "
+        "metres for one step of the depth images, right, and is depth_max what the sensor reaches?",
+        depth_max, nearest, farthest));
+  }
   const auto at = depths.begin() + static_cast<std::ptrdiff_t>(depths.size() * 9 / 10);
   std::nth_element(depths.begin(), at, depths.end());
   return *at;

@@ -63,10 +63,13 @@ struct SplatEngine::Implementation {
   }
 
   /// Takes the steps of `order`, a few per submission.
-  void run_steps(std::span<const MappingView> views, std::span<CameraVariable> view_cameras,
-                 std::span<const int> order, const MappingSettings& settings, double extent) {
+  /// Returns how many steps were done.
+  std::size_t run_steps(std::span<const MappingView> views, std::span<CameraVariable> view_cameras,
+                        std::span<const int> order, const MappingSettings& settings, double extent,
+                        const std::stop_token& stop) {
     gpu::Recorder recorder(device);
     for (std::size_t begin = 0; begin < order.size(); begin += kMappingBatch) {
+      if (stop.stop_requested()) return begin;
       const auto batch = order.subspan(begin, std::min(kMappingBatch, order.size() - begin));
       rasteriser.lists.submit(recorder, batch.size(), [&](std::size_t step) {
         const MappingView& view = views[batch[step]];
@@ -74,6 +77,7 @@ struct SplatEngine::Implementation {
                            view.refine_pose, settings, extent);
       });
     }
+    return order.size();
   }
 };
 
@@ -166,18 +170,18 @@ TrackingResult SplatEngine::track(FrameHandle frame, const Camera& start, const 
 }
 
 MappingResult SplatEngine::optimise(std::span<MappingView> views, std::span<const int> order,
-                                    const MappingSettings& settings, double extent) {
+                                    const MappingSettings& settings, double extent,
+                                    const std::stop_token& stop) {
   const auto begin = std::chrono::steady_clock::now();
   Implementation& i = *implementation_;
   const std::span<CameraVariable> cameras = i.cameras_of(views);
-  i.run_steps(views, cameras, order, settings, extent);
+  const std::size_t done = i.run_steps(views, cameras, order, settings, extent, stop);
   for (std::size_t v = 0; v < views.size(); ++v)
     if (views[v].refine_pose) views[v].camera.world_to_camera = pose_of(cameras[v].camera.download(1)[0]);
 
   MappingResult result;
-  result.iterations = static_cast<int>(order.size());
-  if (!order.empty())
-    result.loss = i.mapper.read_loss(i.frames.on_device(views[order.back()].frame), settings);
+  result.iterations = static_cast<int>(done);
+  if (done > 0) result.loss = i.mapper.read_loss(i.frames.on_device(views[order[done - 1]].frame), settings);
   result.milliseconds = milliseconds_since(begin);
   return result;
 }
@@ -208,6 +212,7 @@ EngineReport SplatEngine::report() const {
   const gpu::Device& device = implementation_->device;
   return {.device = device.report().name,
           .driver = device.report().driver,
+          .is_cpu = device.limits().is_cpu,
           .map_bytes = size() * implementation_->map.parameter_bytes(),
           .device_peak_bytes = device.memory_peak(),
           .device_use = device.counters(),

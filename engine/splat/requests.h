@@ -153,6 +153,7 @@ struct DensifyResult {
 struct EngineReport {
   std::string device;
   std::string driver;
+  bool is_cpu = false;             ///< a software implementation
   uint64_t map_bytes = 0;          ///< parameters of the Gaussians
   uint64_t device_peak_bytes = 0;  ///< most device memory in use at any time
   gpu::DeviceCounters device_use;  ///< since the engine was made

@@ -30,6 +30,13 @@ class InputError : public Error {
       : Error(file.string() + ":" + std::to_string(line) + ": " + problem) {}
 };
 
+/// A frame whose image cannot be used, though it is read without fault: one that shows nothing, or not yet the
+/// light that the camera will see by. The next one may do.
+class NoImageError : public InputError {
+ public:
+  using InputError::InputError;
+};
+
 /// A call that its contract forbids: the caller's mistake, not the user's. Nothing has changed.
 class UsageError : public Error {
  public:
