@@ -1,6 +1,8 @@
 // What is said about each frame, in metrics.json and in frames.csv; docs/evaluation.md describes the columns.
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "engine/session/frame_table.h"
 
 namespace surefield {
@@ -9,6 +11,11 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+/// A gain with the digits that mean something.
+double rounded(float gain) {
+  return std::round(gain * 1e4) / 1e4;
+}
+
 }  // namespace
 
 nlohmann::ordered_json frame_json(const FrameReport& frame) {
@@ -16,6 +23,9 @@ nlohmann::ordered_json frame_json(const FrameReport& frame) {
           {"timestamp_s", frame.timestamp},
           {"keyframe", frame.keyframe},
           {"lost", frame.lost},
+          {"gain_red", rounded(frame.gains[0])},
+          {"gain_green", rounded(frame.gains[1])},
+          {"gain_blue", rounded(frame.gains[2])},
           {"retries", frame.retries},
           {"loss", frame.tracking_loss},
           {"valid_fraction", frame.valid_fraction},

@@ -1,5 +1,7 @@
 #include "engine/session/run_sequence.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <atomic>
 #include <chrono>
@@ -30,8 +32,7 @@ bool ends_run(const std::exception_ptr& error) {
 /// What the thread of SLAM tells of a run, passed on to the observers with the frames that were skipped.
 class Listener : public SlamListener {
  public:
-  Listener(const RunObservers& observers, const std::function<bool()>& interrupted)
-      : observers_(observers), interrupted_(interrupted) {}
+  Listener(const RunObservers& observers, const std::stop_token& stop) : observers_(observers), stop_(stop) {}
 
   bool before_frame(Slam& slam) override {
     return guard([&] {
@@ -44,6 +45,7 @@ class Listener : public SlamListener {
   void mapped(const Frame& frame, const Slam& slam, const FrameReport& report) override {
     guard([&] {
       tell_unreadable(frame.index);
+      any_fed_ = true;
       for (RunObserver* observer : observers_) observer->fed(frame, slam, report);
       return true;
     });
@@ -54,11 +56,12 @@ class Listener : public SlamListener {
       tell_unreadable(frame.index);
       if (ends_run(error) || !slam.usable()) std::rethrow_exception(error);
       skip({frame.index, describe(error)});
+      count_unusable(error);
       return true;
     });
   }
 
-  bool is_interrupted() const { return interrupted_ && interrupted_(); }
+  bool is_interrupted() const { return stop_.stop_requested(); }
   /// Whether the thread takes no more frames; asked by the thread that reads.
   bool ended() const { return ended_; }
 
@@ -67,6 +70,24 @@ class Listener : public SlamListener {
     const std::lock_guard lock(mutex_);
     unreadable_.insert(unreadable_.end(), problems.begin() + static_cast<std::ptrdiff_t>(unreadable_.size()),
                        problems.end());
+  }
+
+  /// Gives up after the first frames that cannot be fed. One that is dark only says nothing of the next one.
+  void count_unusable(const std::exception_ptr& error) {
+    try {
+      std::rethrow_exception(error);
+    } catch (const NoImageError&) {
+      return;
+    } catch (...) {
+    }
+    if (++unusable_ >= kHopelessFrames && !any_fed_) throw InputError(hopeless());
+  }
+
+  /// Why no frame could be used; empty where one could, or none came.
+  std::string hopeless() const {
+    if (any_fed_ || skipped_.empty()) return {};
+    return fmt::format("none of the {} frames so far can be used: {}", skipped_.size(),
+                       skipped_.front().reason);
   }
 
   /// Tells the observers of unreadable frames up to an index.
@@ -106,7 +127,9 @@ class Listener : public SlamListener {
   }
 
   const RunObservers& observers_;
-  const std::function<bool()>& interrupted_;
+  const std::stop_token stop_;
+  bool any_fed_ = false;
+  std::size_t unusable_ = 0;
   std::vector<SkippedFrame> skipped_;
   std::atomic<bool> ended_{false};
 
@@ -120,6 +143,7 @@ void feed_all(FrameSource& source, SlamThread& thread, Listener& listener) {
   while (!listener.is_interrupted()) {
     std::optional<Frame> frame = source.next();
     listener.note_unreadable(source.problems());
+    if (!frame && listener.is_interrupted()) break;
     if (!frame) return thread.finish();
     thread.feed(std::move(*frame));
     if (listener.ended()) return thread.finish();  // throws what has ended it
@@ -130,9 +154,13 @@ void feed_all(FrameSource& source, SlamThread& thread, Listener& listener) {
 }  // namespace
 
 SequenceRun run_sequence(FrameSource& source, Slam& slam, const RunObservers& observers,
-                         const std::function<bool()>& interrupted) {
+                         const std::stop_token& stop) {
   SequenceRun run;
-  Listener listener(observers, interrupted);
+  Listener listener(observers, stop);
+  const std::stop_callback end_soon(stop, [&] {
+    slam.stop_mapping();
+    source.stop();
+  });
   const auto start = std::chrono::steady_clock::now();
   try {
     // The source decodes ahead where that pays; more frames waiting here would only take memory.
@@ -143,6 +171,9 @@ SequenceRun run_sequence(FrameSource& source, Slam& slam, const RunObservers& ob
   }
   listener.tell_unreadable(std::numeric_limits<int>::max());
   run.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  const std::string hopeless = listener.hopeless();
+  if (!run.failure && !hopeless.empty() && !stop.stop_requested())
+    run.failure = std::make_exception_ptr(InputError(hopeless));
   run.skipped = listener.take_skipped();
   run.end = run.failure                 ? RunEnd::Failed
             : listener.is_interrupted() ? RunEnd::Interrupted

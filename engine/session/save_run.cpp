@@ -12,10 +12,8 @@ namespace {
 
 /// Saves the map in one format and removes what an earlier run left in another, which is not this run's map.
 void save_map(ResultsFolder& results, const Slam& slam, const std::string& format) {
-  for (const std::string& other : run_map_formats()) {
-    std::error_code ignored;
-    if (other != format) std::filesystem::remove(results.path() / ("map." + other), ignored);
-  }
+  for (const std::string& other : run_map_formats())
+    if (other != format) results.remove("map." + other);
   results.save("map." + format, [&](const auto& file) { write_map(file, slam.map()); });
 }
 

@@ -1,6 +1,8 @@
 #include <doctest/doctest.h>
 
 #include <atomic>
+#include <stop_token>
+#include <thread>
 
 #include "engine/io/trajectory_file.h"
 #include "engine/session/kept_keyframes.h"
@@ -14,6 +16,7 @@
 
 using namespace surefield;
 using namespace surefield::testing;
+using test::contains;
 
 namespace {
 
@@ -29,15 +32,20 @@ class DamagedOffice : public FrameSource {
   const std::vector<SkippedFrame>& problems() const override { return problems_; }
 
   std::optional<Frame> next() override {
+    if (stopped) return std::nullopt;
     if (next_ == unreadable) problems_.push_back({next_++, "damaged"});
     if (next_ == breaks_at) throw InputError("the camera was pulled out");
     if (next_ == kFrames) return std::nullopt;
     Frame frame = *office_.load(next_).frame;
-    if (next_++ == small) frame = resize_frame(frame, 0.5);
+    if (next_ == small || next_ < small_until) frame = resize_frame(frame, 0.5);
+    ++next_;
     return frame;
   }
 
-  int unreadable = -1, small = -1, breaks_at = -1;
+  void stop() override { stopped = true; }
+
+  int unreadable = -1, small = -1, small_until = -1, breaks_at = -1;
+  std::atomic<bool> stopped{false};
 
  private:
   const SyntheticRecording office_ = office(kFrames);
@@ -52,14 +60,14 @@ class Watcher : public RunObserver {
   void fed(const Frame& frame, const Slam&, const FrameReport&) override {
     told.push_back(frame.index);
     if (frame.index == throws_at) throw InputError("the disk is full");
-    if (frame.index == stops_at) stop = true;
+    if (frame.index == stops_at) stop.request_stop();
   }
   void skipped(const SkippedFrame& frame) override { passed_over.push_back(frame.index); }
 
   int throws_at = -1, stops_at = -1;
   int before = 0;
   std::vector<int> told, passed_over;
-  std::atomic<bool> stop{false};
+  std::stop_source stop;
 };
 
 struct Outcome {
@@ -70,7 +78,7 @@ struct Outcome {
 
 Outcome run(FrameSource& source, Watcher& watcher) {
   Slam slam(quick_settings(), source.intrinsics(), engine_options());
-  Outcome outcome{run_sequence(source, slam, {&watcher}, [&] { return watcher.stop.load(); }),
+  Outcome outcome{run_sequence(source, slam, {&watcher}, watcher.stop.get_token()),
                   slam.trajectory()};
   outcome.finished = !slam.usable();
   return outcome;
@@ -123,6 +131,55 @@ TEST_CASE("an interruption ends a run after the frame in work and does not finis
   CHECK(outcome.run.failure == nullptr);
   CHECK_FALSE(outcome.finished);
   CHECK(watcher.told == std::vector{0, 1, 2});
+  CHECK(source.stopped);
+}
+
+TEST_CASE("an interruption leaves out the mapping steps that remain, and ends a source that waits") {
+  /// Gives one frame and then waits until it is stopped.
+  class Waiting : public DamagedOffice {
+   public:
+    std::optional<Frame> next() override {
+      if (!given_) return given_ = true, DamagedOffice::next();
+      while (!stopped) std::this_thread::yield();
+      return std::nullopt;
+    }
+
+   private:
+    bool given_ = false;
+  };
+  Waiting source;
+  Slam slam(quick_settings(), source.intrinsics(), engine_options());
+  std::stop_source stop;
+  std::thread user([&] {
+    while (slam.reports().empty()) std::this_thread::yield();
+    stop.request_stop();
+  });
+  const SequenceRun outcome = run_sequence(source, slam, {}, stop.get_token());
+  user.join();
+  CHECK(outcome.end == RunEnd::Interrupted);
+  CHECK(slam.trajectory().size() == 1);
+
+  Slam hurried(quick_settings(), source.intrinsics(), engine_options());
+  hurried.stop_mapping();
+  const FrameReport report = hurried.feed(*DamagedOffice().next());
+  CHECK(report.mapping_iterations == 0);
+  CHECK(hurried.map().size() > 0);
+}
+
+TEST_CASE("a run whose first frames cannot be used is given up, and says why once") {
+  DamagedOffice source;
+  Watcher watcher;
+  source.small_until = 5;
+  const Outcome outcome = run(source, watcher);
+  CHECK(outcome.run.end == RunEnd::Failed);
+  REQUIRE(outcome.run.failure);
+  CHECK(contains(describe(outcome.run.failure), "none of the 5 frames so far can be used: the frame's images"));
+  CHECK(watcher.told.empty());
+
+  DamagedOffice late;
+  Watcher patient;
+  late.small_until = 4;
+  CHECK(run(late, patient).run.end == RunEnd::Completed);
 }
 
 TEST_CASE("an error of the source or of an observer ends a run, and what was computed is there") {
@@ -166,13 +223,14 @@ TEST_CASE("a run is saved with what it has; a file that cannot be written does n
   Slam slam(quick_settings(), source.intrinsics(), engine_options());
   slam.feed(*source.next());
   ResultsFolder results(folder / "run");
-  std::filesystem::create_directories(folder / "run/frames.csv/in_the_way");
-  std::ofstream(folder / "run/map.spz") << "of an earlier run";
+  const std::filesystem::path place = results.path();
+  std::filesystem::create_directories(place / "frames.csv/in_the_way");
+  std::ofstream(place / "map.spz") << "of an earlier state";
   save_run(results, slam, source);
-  CHECK(read_trajectory(folder / "run/trajectory.txt").size() == 1);
-  CHECK(read_trajectory(folder / "run/keyframes.txt").size() == 1);
-  CHECK(std::filesystem::file_size(folder / "run/map.ply") > 1000);
-  CHECK_FALSE(std::filesystem::exists(folder / "run/map.spz"));
+  CHECK(read_trajectory(place / "trajectory.txt").size() == 1);
+  CHECK(read_trajectory(place / "keyframes.txt").size() == 1);
+  CHECK(std::filesystem::file_size(place / "map.ply") > 1000);
+  CHECK_FALSE(std::filesystem::exists(place / "map.spz"));
   REQUIRE(results.problems().size() == 1);
   CHECK(results.problems().front().starts_with("frames.csv is not saved: "));
 }

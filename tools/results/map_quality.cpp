@@ -140,7 +140,7 @@ nlohmann::ordered_json quality_json(const std::optional<MapQuality>& quality) {
 
 std::string quality_table(const MapQuality& quality) {
   std::string text = scores_line("images", quality.all);
-  if (quality.held_out.frames > 0) text += scores_line("no keyframes", quality.held_out);
+  if (quality.held_out.frames > 0) text += scores_line("held-out frames", quality.held_out);
   return text;
 }
 

@@ -3,7 +3,6 @@
 #include <filesystem>
 
 #include "engine/config/built_in_configs.h"
-#include "engine/eval/depth_delay.h"
 #include "engine/synth/synthetic_recording.h"
 #include "engine/types/error.h"
 
@@ -17,7 +16,10 @@ constexpr const char* kSynthetic = "synthetic";
 
 Dataset open_run_dataset(const RunOptions& options) {
   if (options.dataset != kSynthetic)
-    return open_dataset(options.dataset, options.format, options.depth_delay.value_or(0));
+    return open_dataset(options.dataset, {.format = options.format,
+                                          .depth_delay = options.depth_delay.value_or(0),
+                                          .camera = options.assumed_camera,
+                                          .depth_unit = options.assumed_depth_unit});
   if (options.format != "auto" && options.format != kSynthetic) {
     throw InputError("--dataset synthetic has no files of the format " + options.format +
                      "; leave --format out (a folder of that name is given as ./synthetic)");
@@ -32,11 +34,10 @@ Dataset open_run_dataset(const RunOptions& options) {
 
 RunOptions with_depth_delay(RunOptions options) {
   if (options.depth_delay || options.dataset == kSynthetic) return options;
-  const auto open = [asked = options](double added) mutable {
-    asked.depth_delay = added;
-    return open_run_dataset(asked).recording;
-  };
-  options.depth_delay = estimate_depth_delay(*open_run_dataset(options).recording, open);
+  const Dataset dataset = open_run_dataset(options);
+  if (!has_depth_stamps(*dataset.recording)) return options;
+  options.estimated_depth_delay = estimate_depth_delay(*dataset.recording);
+  options.depth_delay = options.estimated_depth_delay->usable();
   return options;
 }
 

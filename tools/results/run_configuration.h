@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/eval/depth_delay.h"
 #include "engine/slam/settings.h"
 #include "engine/sources/frame_stream.h"
 #include "engine/sources/open_dataset.h"
@@ -15,11 +16,16 @@ namespace surefield {
 struct RunOptions {
   std::string dataset;  ///< a folder, or "synthetic" for the embedded sequence
   std::string format = "auto";
-  std::optional<double> depth_delay;     ///< seconds, see open_dataset(); nullopt: estimated
-  std::string config;                    ///< a file; empty: the built-in one of the format
-  std::vector<std::string> assignments;  ///< "key=value", applied after the file
-  std::string out;                       ///< folder of the results
-  std::string map_format = "ply";        ///< one of run_map_formats()
+  std::optional<double> depth_delay;                ///< seconds, see DatasetOptions; nullopt: estimated
+  std::optional<DepthDelay> estimated_depth_delay;  ///< what depth_delay comes from, where it was estimated
+  std::string assumed_camera;                       ///< as DatasetOptions::camera
+  std::optional<double> assumed_depth_unit;         ///< metres for one step, as DatasetOptions::depth_unit
+  std::string config;                               ///< a file; empty: the built-in one of the format
+  std::vector<std::string> assignments;             ///< "key=value", applied after the file
+  std::string out;                                  ///< folder of the results
+  bool overwrite = false;                           ///< also where that holds something
+  bool strict = false;                              ///< does not run what it has doubts about
+  std::string map_format = "ply";                   ///< one of run_map_formats()
   FrameSelection selection;
   EngineOptions engine;
   bool quiet = false;
@@ -32,7 +38,8 @@ struct RunOptions {
 /// images, it is none.
 Dataset open_run_dataset(const RunOptions& options);
 
-/// The options with the delay of the depth images estimated where they leave it open. Throws InputError.
+/// The options with the delay of the depth images estimated where they leave it open and depth images have
+/// stamps of their own: as far as it is certain (DepthDelay::usable). Throws InputError.
 RunOptions with_depth_delay(RunOptions options);
 
 /// Where that dataset is, as it can be given to --dataset from any folder.

@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <limits>
 
 #include "engine/formats/map_file.h"
@@ -10,6 +12,8 @@
 #include "engine/io/trajectory_file.h"
 #include "engine/types/error.h"
 #include "tools/results/run_configuration.h"
+#include "tools/results/run_files.h"
+#include "tools/shared/load_map.h"
 
 namespace surefield {
 
@@ -19,7 +23,13 @@ constexpr const char* kSchema = "surefield-metrics";
 constexpr int kMetricsVersion = 1;
 
 nlohmann::json read_metrics(const std::filesystem::path& file) {
-  if (!std::filesystem::exists(file)) {
+  if (!file_exists(file)) {
+    const std::filesystem::path partial = file.parent_path().string() + ".partial";
+    if (file_exists(partial / file.filename()))
+      throw InputError(
+          file,
+          "no such file; the run has not ended, or was ended by force: what it has saved so far is in " +
+              partial.string());
     throw InputError(file, "no such file; is this a folder that surefield run has written?");
   }
   nlohmann::json json = nlohmann::json::parse(read_file(file), nullptr, /*allow_exceptions=*/false);
@@ -34,6 +44,18 @@ nlohmann::json read_metrics(const std::filesystem::path& file) {
     throw InputError(file, "says nothing about its frames; run the sequence again");
   }
   return json;
+}
+
+/// What a run saves on its way is not swapped as a whole: where it was ended in the middle, its files may be
+/// some frames apart.
+void cut_to_common_length(RunFolder& run) {
+  nlohmann::json& frames = run.metrics["per_frame"];
+  const std::size_t common = std::min(run.trajectory.size(), frames.size());
+  run.trajectory.resize(common);
+  frames.erase(frames.begin() + static_cast<std::ptrdiff_t>(common), frames.end());
+  fmt::print(stderr,
+             "surefield: note: {}: this run has not ended; these are the {} frames that it has saved\n",
+             run.path.string(), common);
 }
 
 }  // namespace
@@ -64,6 +86,8 @@ RunFolder read_run(const std::filesystem::path& folder) {
   run.trajectory = read_trajectory(folder / "trajectory.txt");
   run.keyframes = read_trajectory(folder / "keyframes.txt");
   run.configuration = read_file(folder / "config.yaml");
+  check_run_files(run.metrics, folder);
+  if (run.text("/status") == "running") cut_to_common_length(run);
   if (run.trajectory.size() != run.metrics["per_frame"].size()) {
     throw InputError(folder / "trajectory.txt",
                      fmt::format("has {} poses, but metrics.json {} frames; the files are of different runs",
@@ -79,7 +103,7 @@ SlamSettings settings_of(const RunFolder& run) {
 }
 
 void assign_map(SplatEngine& engine, const RunFolder& run) {
-  engine.assign(read_map(run.map_file()).cloud, settings_of(run).depth_model);
+  engine.assign(load_map(run.map_file()), settings_of(run).depth_model);
 }
 
 Dataset open_dataset_of(const RunFolder& run, const std::string& instead) {
@@ -89,6 +113,9 @@ Dataset open_dataset_of(const RunFolder& run, const std::string& instead) {
     throw InputError(run.path / "metrics.json", "does not name the dataset; give it with --dataset");
   }
   if (instead.empty()) options.format = run.text("/dataset/format");
+  options.assumed_camera = run.text("/dataset/assumed_camera");
+  const double depth_unit = run.number("/dataset/assumed_depth_unit_m");
+  if (std::isfinite(depth_unit)) options.assumed_depth_unit = depth_unit;
   const double depth_delay = run.number("/dataset/depth_delay_s");
   if (std::isfinite(depth_delay)) options.depth_delay = depth_delay;
   return open_run_dataset(options);

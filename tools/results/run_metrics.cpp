@@ -1,5 +1,8 @@
 // metrics.json; the schema is described in docs/evaluation.md.
+#include <fmt/chrono.h>
 #include <sys/resource.h>
+
+#include <ctime>
 
 #include "engine/session/frame_table.h"
 #include "engine/types/build_info.h"
@@ -22,8 +25,9 @@ double host_peak_bytes() {
   return 1024.0 * static_cast<double>(usage.ru_maxrss);  // Linux counts in KiB
 }
 
-const char* name(RunEnd end) {
-  switch (end) {
+const char* name(std::optional<RunEnd> end) {
+  if (!end) return "running";
+  switch (*end) {
     case RunEnd::Completed:
       return "completed";
     case RunEnd::Interrupted:
@@ -33,17 +37,27 @@ const char* name(RunEnd end) {
   }
 }
 
+/// Null where the delay was not estimated, or nothing was found.
+Json depth_delay_error(const RunRecord& record) {
+  const bool known = record.estimated_depth_delay && record.estimated_depth_delay->known();
+  return known ? Json(record.estimated_depth_delay->error) : Json(nullptr);
+}
+
 Json dataset_json(const RunRecord& record) {
-  return {{"name", record.dataset},
-          {"path", record.dataset_path},
-          {"format", record.format},
-          {"width", record.intrinsics.width},
-          {"height", record.intrinsics.height},
-          {"start", record.selection.start},
-          {"stride", record.selection.stride},
-          {"scale", record.selection.scale},
-          {"depth_max_m", record.depth_max},
-          {"depth_delay_s", record.depth_delay}};
+  return {
+      {"name", record.dataset},
+      {"path", record.dataset_path},
+      {"format", record.format},
+      {"width", record.intrinsics.width},
+      {"height", record.intrinsics.height},
+      {"start", record.selection.start},
+      {"stride", record.selection.stride},
+      {"scale", record.selection.scale},
+      {"depth_max_m", record.depth_max},
+      {"depth_delay_s", record.depth_delay},
+      {"depth_delay_error_s", depth_delay_error(record)},
+      {"assumed_camera", record.assumed_camera.empty() ? Json(nullptr) : Json(record.assumed_camera)},
+      {"assumed_depth_unit_m", record.assumed_depth_unit ? Json(*record.assumed_depth_unit) : Json(nullptr)}};
 }
 
 Json frames_json(const RunRecord& record) {
@@ -72,12 +86,14 @@ Json time_json(const RunRecord& record) {
 
 }  // namespace
 
-std::string metrics_json(const RunRecord& record) {
+std::string metrics_json(const RunRecord& record, const nlohmann::ordered_json& files) {
   Json json;
   json["schema"] = "surefield-metrics";
   json["version"] = kSchemaVersion;
+  json["run"] = files;
   json["status"] = name(record.end);
   json["error"] = record.error.empty() ? Json(nullptr) : Json(record.error);
+  json["date"] = fmt::format("{:%Y-%m-%d %H:%M} UTC", fmt::gmtime(std::time(nullptr)));
   json["program"] = {{"version", kVersion}, {"commit", kGitCommit}};
   json["device"] = {{"name", record.engine.device}, {"driver", record.engine.driver}};
   json["dataset"] = dataset_json(record);

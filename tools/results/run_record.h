@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/eval/depth_delay.h"
 #include "engine/eval/trajectory_metrics.h"
 #include "engine/session/run_sequence.h"
 #include "engine/slam/slam.h"
@@ -17,12 +18,15 @@ inline constexpr double kMegabyte = 1e6;  ///< bytes
 
 /// Everything that is known about a run when it has ended.
 struct RunRecord {
-  RunEnd end = RunEnd::Completed;
-  std::string error;  ///< why it failed
+  std::optional<RunEnd> end;  ///< nullopt: it is still running
+  std::string error;          ///< why it failed
   std::string dataset;
   std::string dataset_path;  ///< where it was read from, absolute; or "synthetic"
   std::string format;
-  double depth_delay = 0;  ///< seconds, added to the stamps of depth images
+  double depth_delay = 0;                           ///< seconds, added to the stamps of depth images
+  std::optional<DepthDelay> estimated_depth_delay;  ///< where depth_delay comes from
+  std::string assumed_camera;                       ///< as the user asked; empty: none
+  std::optional<double> assumed_depth_unit;         ///< metres, as the user asked
   FrameSelection selection;
   std::optional<int> selected;  ///< frames that were to be fed; nullopt: nobody knew how many
   Intrinsics intrinsics;        ///< of the frames fed
@@ -63,8 +67,8 @@ int count_frames(const std::vector<FrameReport>& frames, Test test) {
   return count;
 }
 
-/// metrics.json, as docs/evaluation.md describes it.
-std::string metrics_json(const RunRecord& record);
+/// metrics.json, as docs/evaluation.md describes it; `files` is that of run_files_json().
+std::string metrics_json(const RunRecord& record, const nlohmann::ordered_json& files);
 
 /// The lines that the user reads at the end of a run.
 std::string run_summary(const RunRecord& record);

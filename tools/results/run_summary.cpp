@@ -1,7 +1,10 @@
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "tools/results/run_record.h"
 #include "tools/results/trajectory_report.h"
+#include "tools/shared/numbers.h"
 
 namespace surefield {
 
@@ -21,9 +24,27 @@ std::string frames_line(const RunRecord& record) {
   return text + "\n";
 }
 
-std::string iterations_line(const char* title, const IterationTotal& total) {
-  return fmt::format("{:<16} {:.2f} ms x {} iterations = {:.1f} s\n", title, total.milliseconds_each(),
-                     total.iterations, total.seconds);
+/// What tracking or mapping took of each of so many frames or keyframes.
+std::string cost_line(const char* title, const IterationTotal& total, std::size_t count, const char* each) {
+  const auto per = [&](double whole) { return count > 0 ? whole / static_cast<double>(count) : NAN; };
+  return fmt::format("{:<16} {} ms a {} ({} iterations of {} ms), {:.1f} s in all\n", title,
+                     shown(per(1000 * total.seconds), 1), each, shown(per(total.iterations), 1),
+                     shown(total.milliseconds_each(), 2), total.seconds);
+}
+
+/// Only where depth images have stamps of their own.
+std::string depth_delay_line(const RunRecord& record) {
+  if (!record.estimated_depth_delay) return {};
+  const DepthDelay& delay = *record.estimated_depth_delay;
+  const double used = 1000 * record.depth_delay, error = 1000 * delay.error;
+  if (!delay.known()) return "depth delay      0 ms, as nothing tells it; --depth-delay sets it\n";
+  if (used == 0) {
+    return fmt::format(
+        "depth delay      0 ms, as {:+.0f} +- {:.0f} ms is not certain; --depth-delay sets it\n",
+        1000 * delay.value, error);
+  }
+  return fmt::format("depth delay      {:+.0f} +- {:.0f} ms, estimated; --depth-delay sets it\n", used,
+                     error);
 }
 
 std::string skipped_lines(const RunRecord& record) {
@@ -60,15 +81,16 @@ IterationTotal mapping_total(const std::vector<FrameReport>& frames) {
 std::string run_summary(const RunRecord& record) {
   std::string text = frames_line(record);
   text += skipped_lines(record);
+  text += depth_delay_line(record);
   if (record.accuracy) text += trajectory_table(*record.accuracy);
   if (record.keyframe_accuracy) {
     text += fmt::format("keyframes' ATE   {:.3f} cm\n", 100 * record.keyframe_accuracy->ate.rmse);
   }
   text += fmt::format("speed            {:.2f} frames/s, {:.1f} s in all\n", record.frames_per_second(),
                       record.seconds);
-  text += iterations_line("tracking", tracking_total(record.frames));
-  text += iterations_line("mapping", mapping_total(record.frames));
-  text += fmt::format("map              {} Gaussians, {:.1f} MB\n", record.gaussians(),
+  text += cost_line("tracking", tracking_total(record.frames), record.frames.size(), "frame");
+  text += cost_line("mapping", mapping_total(record.frames), record.keyframes.size(), "keyframe");
+  text += fmt::format("map              {} Gaussians, {:.1f} MB of memory\n", record.gaussians(),
                       static_cast<double>(record.engine.map_bytes) / 1e6);
   if (record.images) text += quality_table(*record.images);
   return text;

@@ -44,7 +44,7 @@ std::string trajectory_table(const TrajectoryMetrics& metrics) {
   text += fmt::format("ATE RMSE         {:.3f} cm   (mean {:.3f}, median {:.3f}, max {:.3f})\n",
                       centimetres(metrics.ate.rmse), centimetres(metrics.ate.mean),
                       centimetres(metrics.ate.median), centimetres(metrics.ate.max));
-  text += relative("RPE per frame", metrics.rpe_frame);
+  if (metrics.rpe_frame.motions > 0) text += relative("RPE per frame", metrics.rpe_frame);
   if (metrics.rpe_second.motions > 0) text += relative("RPE per second", metrics.rpe_second);
   return text;
 }

@@ -1,11 +1,16 @@
 // surefield run: the options; the work is in run_session.
+#include <fmt/format.h>
+
+#include <csignal>
 #include <memory>
 
 #include "engine/formats/map_file.h"
+#include "engine/sources/camera_file.h"
 #include "tools/run/run_film.h"
 #include "tools/run/run_session.h"
 #include "tools/run/run_viewer.h"
 #include "tools/shared/command.h"
+#include "tools/shared/interrupt.h"
 
 namespace surefield {
 
@@ -17,7 +22,11 @@ constexpr const char* kRunExamples =
     "(the Gaussians; map.spz with --map-format spz), metrics.json and frames.csv (docs/evaluation.md), "
     "config.yaml (every setting as "
     "used), log.txt.\n"
-    "Ctrl-C finishes the current frame and saves everything; a second Ctrl-C quits at once.\n"
+    "They appear together when the run has ended; until then, and where it is killed, FOLDER.partial has "
+    "what was\n"
+    "saved every few keyframes. Ctrl-C, SIGTERM and SIGHUP end the run soon and save everything; a second "
+    "one quits\n"
+    "at once.\n"
     "\n"
     "Examples:\n"
     "  surefield run --dataset synthetic --out out/demo\n"
@@ -33,7 +42,13 @@ std::vector<std::string> run_formats() {
   return formats;
 }
 
+std::string known_camera_list() {
+  return fmt::format("{}", fmt::join(known_camera_names(), ", "));
+}
+
 int run_watched(const RunOptions& options) {
+  catch_interrupts();
+  std::signal(SIGPIPE, SIG_IGN);  // a closed output ends the run like Ctrl-C, see say()
   std::optional<RunFilm> film;
   RunObservers observers;
   if (!options.film.empty()) observers.push_back(&film.emplace(options));
@@ -50,8 +65,7 @@ void add_run(CLI::App& program, Action& action) {
   run->add_option("--dataset", options->dataset,
                   "Folder of the sequence (or a .sens file), or \"synthetic\" for the embedded one")
       ->required();
-  run->add_option("--out", options->out, "Folder of the results; files of an earlier run are overwritten")
-      ->required();
+  run->add_option("--out", options->out, "Folder of the results")->required();
   run->add_option("--format", options->format, "Layout of the dataset")
       ->check(CLI::IsMember(run_formats()))
       ->capture_default_str();
@@ -76,6 +90,13 @@ void add_run(CLI::App& program, Action& action) {
   run->add_option("--depth-delay", options->depth_delay,
                   "Seconds to add to the stamps of depth images that have their own (TUM) before they are "
                   "paired with colour images; default: estimated from the edges of both");
+  run->add_option(
+      "--assume-camera", options->assumed_camera,
+      "The camera, instead of what the dataset says or implies: a file as camera.yaml, or one of " +
+          known_camera_list() + " (docs/datasets.md)");
+  run->add_option("--assume-depth-unit", options->assumed_depth_unit,
+                  "Metres for one step of the depth images, instead of what the dataset says or implies")
+      ->check(CLI::PositiveNumber);
   run->add_option("--device", options->engine.device,
                   "Number or part of the name of the device, see surefield devices; default: the best");
   run->add_flag("--validate", options->engine.validate, "Runs under Vulkan's validation layer (slow)");
@@ -86,7 +107,11 @@ void add_run(CLI::App& program, Action& action) {
   run->add_flag(
       "--viewer", options->viewer,
       "Shows the map while it grows, in a window; closing it does not end the run (docs/viewer.md)");
-  run->add_flag("--quiet", options->quiet, "Prints errors only");
+  run->add_flag("--overwrite", options->overwrite,
+                "Replaces the earlier run that --out holds; other files that are there stay");
+  run->add_flag("--strict", options->strict,
+                "Ends with exit code 4, before the first frame, where something looks wrong");
+  run->add_flag("--quiet", options->quiet, "Prints warnings and errors only");
   run->footer(kRunExamples);
   run->callback([options, &action] { action = [options] { return run_watched(*options); }; });
 }

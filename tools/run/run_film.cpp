@@ -9,6 +9,7 @@
 #include "engine/viewer/film_picture.h"
 #include "engine/viewer/view_path.h"
 #include "tools/shared/command.h"
+#include "tools/shared/say.h"
 
 namespace surefield {
 
@@ -120,11 +121,11 @@ void RunFilm::report_end() {
     for (const std::string& message : stage_->device.validation_messages())
       print_error("validation: " + message);
   if (film_.pictures() == 0) return;
-  if (!film_.notice().empty()) fmt::print(stderr, "surefield: warning: {}\n", film_.notice());
+  if (!film_.notice().empty()) say(stderr, "surefield: warning: {}\n", film_.notice());
   const std::string summary = fmt::format("{}: {} pictures, {:.1f} s of the run", film_.output().string(),
                                           film_.pictures(), seconds_);
   log_->info("film {}", summary);
-  if (!quiet_) fmt::print("film             {}\n", summary);
+  if (!quiet_) say(stdout, "film             {}\n", summary);
 }
 
 }  // namespace surefield

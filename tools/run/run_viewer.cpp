@@ -12,6 +12,7 @@
 #include "tools/run/run_session.h"
 #include "tools/shared/command.h"
 #include "tools/shared/interrupt.h"
+#include "tools/shared/say.h"
 
 namespace surefield {
 
@@ -148,10 +149,9 @@ void show(ViewerInput input, const RunOptions& options) {
   input.engine = options.engine;
   try {
     for (const std::string& message : show_viewer(std::move(input)))
-      fmt::print(stderr, "surefield: validation: {}\n", message);
+      say(stderr, "surefield: validation: {}\n", message);
   } catch (const std::exception&) {
-    fmt::print(stderr, "surefield: warning: the run goes on without the viewer: {}\n",
-               describe_current_exception());
+    say(stderr, "surefield: warning: the run goes on without the viewer: {}\n", describe_current_exception());
   }
 }
 

@@ -24,7 +24,8 @@ int exit_code_of_current_exception() {
 }
 
 void print_error(const std::string& message) {
-  fmt::print(stderr, "surefield: error: {}\n", message);
+  // Not fmt::print(), which throws where nobody reads.
+  std::fputs(fmt::format("surefield: error: {}\n", message).c_str(), stderr);
 }
 
 std::vector<std::string> known_formats() {

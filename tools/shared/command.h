@@ -13,6 +13,7 @@ enum ExitCode : int {
   kFailure = 1,      ///< any error that is none of those below
   kWrongInput = 2,   ///< the command line, a file or a value is wrong
   kDeviceError = 3,  ///< no usable Vulkan device, or it failed
+  kDoubtful = 4,     ///< done, but what matters could not be checked
   kInterrupted = 130
 };
 

@@ -7,6 +7,7 @@
 #include <cstdio>
 
 #include "tools/shared/progress_line.h"
+#include "tools/shared/say.h"
 
 namespace surefield {
 
@@ -26,23 +27,44 @@ Progress::Progress(std::optional<int> frames, bool quiet)
       quiet_(quiet),
       terminal_(isatty(STDERR_FILENO) == 1),
       start_(std::chrono::steady_clock::now()) {
-  if (!quiet_ && terminal_) draw();
+  if (quiet_) return;
+  if (terminal_) {
+    draw();
+    ticker_ = std::thread([this] { tick(); });
+  } else {
+    say(stderr, "{}\n", numbers());
+  }
 }
 
 Progress::~Progress() {
-  if (!quiet_ && terminal_) fmt::print(stderr, "\n");
+  if (!ticker_.joinable()) return;
+  {
+    const std::lock_guard lock(mutex_);
+    ended_ = true;
+  }
+  ending_.notify_all();
+  ticker_.join();
+  say(stderr, "\n");
+}
+
+/// Draws every second, so that the first frame, which may take long, is seen to be at work.
+void Progress::tick() {
+  std::unique_lock lock(mutex_);
+  while (!ending_.wait_for(lock, std::chrono::seconds(1), [this] { return ended_; })) draw();
 }
 
 void Progress::fed(const Frame&, const Slam&, const FrameReport& report) {
+  const std::lock_guard lock(mutex_);
   last_ = report;
-  ++fed_;
-  if (done_ == 0) first_frame_seconds_ = seconds_since(start_);
+  if (++fed_ > 1) pace_.add(seconds_since(last_end_));
+  last_end_ = std::chrono::steady_clock::now();
   advance();
 }
 
 void Progress::skipped(const SkippedFrame& frame) {
+  const std::lock_guard lock(mutex_);
   if (!quiet_)
-    fmt::print(stderr, "{}skipped: frame {}: {}\n", terminal_ ? kClearLine : "", frame.index, frame.reason);
+    say(stderr, "{}skipped: frame {}: {}\n", terminal_ ? kClearLine : "", frame.index, frame.reason);
   advance();
 }
 
@@ -52,7 +74,7 @@ void Progress::advance() {
   if (terminal_) {
     draw();
   } else if (is_reported()) {
-    fmt::print(stderr, "{}\n", numbers());
+    say(stderr, "{}\n", numbers());
   }
 }
 
@@ -60,7 +82,7 @@ void Progress::draw() const {
   if (frames_) {
     draw_bar("", static_cast<double>(done_) / *frames_, numbers());
   } else {
-    fmt::print(stderr, "{}{}", kClearLine, numbers());
+    say(stderr, "{}{}", kClearLine, numbers());
     std::fflush(stderr);
   }
 }
@@ -76,15 +98,15 @@ std::string Progress::count() const {
 }
 
 std::string Progress::numbers() const {
-  if (fed_ == 0) return count() + "  first frame";
+  if (fed_ == 0)
+    return fmt::format("{}  initialising with the first frame, {:.0f} s", count(), seconds_since(start_));
   return fmt::format("{}  {:.2f} FPS  loss {:.4f}  {} Gaussians{}", count(), fed_ / seconds_since(start_),
                      last_.tracking_loss, last_.gaussians, frames_ ? "  ETA " + remaining() : "");
 }
 
 std::string Progress::remaining() const {
-  if (done_ < 2) return "-";
-  const double each = (seconds_since(start_) - first_frame_seconds_) / (done_ - 1);
-  const int seconds = static_cast<int>(each * std::max(0, *frames_ - done_) + 0.5);
+  if (!pace_.known()) return "-";
+  const int seconds = static_cast<int>(pace_.seconds_each() * std::max(0, *frames_ - done_) + 0.5);
   return fmt::format("{}:{:02}", seconds / 60, seconds % 60);
 }
 
@@ -92,15 +114,15 @@ CountProgress::CountProgress(std::string what, int total)
     : what_(std::move(what)), total_(std::max(1, total)), terminal_(isatty(STDERR_FILENO) == 1) {}
 
 CountProgress::~CountProgress() {
-  if (terminal_) fmt::print(stderr, "{}", kClearLine);
+  if (terminal_) say(stderr, "{}", kClearLine);
 }
 
 void CountProgress::reached(int done) {
   if (terminal_) {
-    fmt::print(stderr, "{}{}/{} {}", kClearLine, done, total_, what_);
+    say(stderr, "{}{}/{} {}", kClearLine, done, total_, what_);
     std::fflush(stderr);
   } else if (10 * done / total_ != 10 * (done - 1) / total_) {
-    fmt::print(stderr, "{}/{} {}\n", done, total_, what_);
+    say(stderr, "{}/{} {}\n", done, total_, what_);
   }
 }
 

@@ -1,18 +1,22 @@
 #pragma once
 
 #include <chrono>
+#include <condition_variable>
+#include <mutex>
 #include <optional>
 #include <string>
+#include <thread>
 
 #include "engine/session/run_observer.h"
+#include "tools/shared/recent_pace.h"
 
 namespace surefield {
 
 /// Seconds that have passed since `start`.
 double seconds_since(std::chrono::steady_clock::time_point start);
 
-/// Shows on stderr how far a run is: a bar where that is a terminal, else a line for every tenth of the
-/// frames.
+/// Shows on stderr how far a run is: a bar where that is a terminal, drawn anew every second from the first
+/// one, else a line for every tenth of the frames.
 class Progress : public RunObserver {
  public:
   /// `frames` is how many there will be, the skipped ones included; where nobody knows, the line only counts.
@@ -25,6 +29,7 @@ class Progress : public RunObserver {
   void skipped(const SkippedFrame& frame) override;
 
  private:
+  void tick();
   void advance();
   void draw() const;
   bool is_reported() const;
@@ -39,7 +44,13 @@ class Progress : public RunObserver {
   int fed_ = 0;
   FrameReport last_;
   std::chrono::steady_clock::time_point start_;
-  double first_frame_seconds_ = 0;  ///< the first frame takes far longer than the others
+  std::chrono::steady_clock::time_point last_end_;  ///< of the last frame that was done
+  RecentPace pace_;  ///< of all frames but the first, which takes far longer than the others
+
+  std::mutex mutex_;  ///< guards what is above and the line on the terminal
+  std::condition_variable ending_;
+  bool ended_ = false;
+  std::thread ticker_;
 };
 
 /// Shows on stderr how many of a number of things are done: a line that counts where that is a terminal, else

@@ -7,6 +7,8 @@
 #include <cstdio>
 #include <utility>
 
+#include "tools/shared/say.h"
+
 namespace surefield {
 
 namespace {
@@ -18,7 +20,7 @@ constexpr std::chrono::milliseconds kPeriod{100};  // drawing more often would o
 void draw_bar(const std::string& label, double fraction, const std::string& text) {
   constexpr int kWidth = 24;
   const int filled = static_cast<int>(kWidth * std::clamp(fraction, 0.0, 1.0));
-  fmt::print(stderr, "\r\x1b[K{}[{:#<{}}{:-<{}}] {}", label, "", filled, "", kWidth - filled, text);
+  say(stderr, "\r\x1b[K{}[{:#<{}}{:-<{}}] {}", label, "", filled, "", kWidth - filled, text);
   std::fflush(stderr);
 }
 
@@ -26,7 +28,7 @@ ProgressLine::ProgressLine(std::string label)
     : label_(std::move(label) + " "), terminal_(isatty(STDERR_FILENO) == 1) {}
 
 ProgressLine::~ProgressLine() {
-  if (drawn_) fmt::print(stderr, "\n");
+  if (drawn_) say(stderr, "\n");
 }
 
 void ProgressLine::show(double fraction, const std::string& text) {
