@@ -20,7 +20,9 @@ constexpr const char* kDescription =
     "`surefield SUBCOMMAND --help` shows the options of a subcommand with an example.";
 
 constexpr const char* kExitCodes =
-    "Exit codes: 0 success, 2 wrong use or input, 3 device error, 130 interrupted, 1 any other error.";
+    "Exit codes: 0 success, 2 wrong use or input, 3 device error, 4 done but doubtful (what matters could "
+    "not be "
+    "checked), 130 interrupted, 1 any other error.";
 
 /// Adds everything that the command line may hold; parsing stores in `action` what it asks for.
 void add_commands(CLI::App& program, surefield::Action& action) {

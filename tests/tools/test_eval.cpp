@@ -62,13 +62,16 @@ TEST_CASE("eval --run finds again what the run found, and needs no more than its
       surefield_command({"eval", "--run", folder / "out", "--json", folder / "out.json"}, folder.path());
   REQUIRE_MESSAGE(outcome.code == 0, outcome.err);
   CHECK(contains(outcome.out, "ATE RMSE"));
-  CHECK(contains(outcome.out, "no keyframes     PSNR"));
-  CHECK(contains(outcome.out, "tracking "));
+  CHECK(contains(outcome.out, "held-out frames  PSNR"));
+  CHECK(contains(outcome.out, " ms a frame"));
+  CHECK_FALSE(contains(outcome.out, "nan"));
   const nlohmann::json metrics = read_json(folder / "out/metrics.json");
   const nlohmann::json json = read_json(folder / "out.json");
   CHECK(json["schema"] == "surefield-evaluation");
   CHECK(json["images"]["held_out"]["frames"] == 1);
   CHECK(json["memory"] == metrics["memory"]);
+  CHECK(json["map"]["file_megabytes"].get<double>() ==
+        doctest::Approx(1e-6 * static_cast<double>(std::filesystem::file_size(folder / "out/map.ply"))));
   // Poses and map went through files of 9 digits and of floats.
   for (const char* key : {"psnr_db", "psnr_same_exposure_db", "ssim", "depth_l1_m"}) {
     CAPTURE(key);
@@ -83,7 +86,7 @@ TEST_CASE("eval --run finds again what the run found, and needs no more than its
       "/no/such"));
   folder.write("out/trajectory.txt", "0 0 0 0 0 0 0 1\n");
   CHECK(contains(surefield_command({"eval", "--run", folder / "out"}, folder.path()).err,
-                 "trajectory.txt: has 1 poses, but metrics.json 3 frames"));
+                 "trajectory.txt: is not as run "));
 }
 
 TEST_CASE("eval renders the map of a run with the depth model of that run") {
@@ -99,7 +102,11 @@ TEST_CASE("eval renders the map of a run with the depth model of that run") {
   };
   const double expected = read_json(folder / "out/metrics.json")["images"]["depth_l1_m"];
   CHECK(depth_error() == doctest::Approx(expected).epsilon(1e-4));
+  // As a run of another model would have left it, of a version that did not note what its files hold.
   folder.write("out/config.yaml", "depth_model: plane\n");
+  nlohmann::json metrics = read_json(folder / "out/metrics.json");
+  metrics.erase("run");
+  folder.write("out/metrics.json", metrics.dump());
   CHECK(depth_error() != doctest::Approx(expected).epsilon(1e-3));
 }
 
@@ -118,6 +125,61 @@ TEST_CASE("eval reads trajectories of other systems: comments, stamps apart from
   CHECK(contains(outcome.out, "RPE per second   4.000 cm"));
 }
 
+TEST_CASE("eval reads KITTI's rows as those of the truth or of a dataset's frames, and says what it read") {
+  const TemporaryFolder folder;
+  write_trajectory(folder / "truth.txt", square(0));
+  folder.write("kitti.txt",
+               "1 0 0 -1 0 1 0 -1 0 0 1 0.02\n1 0 0 1 0 1 0 -1 0 0 1 -0.02\n1 0 0 1 0 1 0 1 0 0 1 0.02\n"
+               "1 0 0 -1 0 1 0 1 0 0 1 -0.02\n");
+  const auto compare = [&](const std::string& estimate, const std::string& truth,
+                           const std::vector<std::string>& more = {}) {
+    std::vector<std::string> arguments = {"eval", "--trajectory", folder / estimate, "--ground-truth",
+                                          folder / truth};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return surefield_command(arguments, folder.path());
+  };
+  for (const auto& [estimate, truth] :
+       {std::pair("kitti.txt", "truth.txt"), std::pair("truth.txt", "kitti.txt")}) {
+    const Outcome outcome = compare(estimate, truth);
+    CHECK_MESSAGE(outcome.code == 0, outcome.err);
+    CHECK(contains(outcome.out, "kitti, 4 poses without stamps"));
+    CHECK(contains(outcome.out, "ATE RMSE         2.000 cm"));
+    // The stamps of the truth are whole numbers: of frames, for all that is known.
+    CHECK_FALSE(contains(outcome.out, "RPE per second"));
+  }
+  folder.write("times.txt", "0.0\n0.5\n1.0\n1.5\n");
+  const Outcome stamped = compare("kitti.txt", "kitti.txt", {"--stamps", folder / "times.txt"});
+  CHECK(contains(stamped.out, "RPE per second   0.000 cm"));
+  folder.write("short.txt", "1 0 0 -1 0 1 0 -1 0 0 1 0.02\n");
+  const Outcome outcome = compare("short.txt", "truth.txt");
+  CHECK(outcome.code == 2);
+  CHECK(contains(outcome.err, "its 1 poses have no stamps, and the truth has 4 poses"));
+}
+
+TEST_CASE("eval aligns with a scale, or not at all, where it is asked to") {
+  const TemporaryFolder folder;
+  Trajectory small = moved(square(0));
+  for (StampedPose& pose : small) pose.camera_to_world.translation() *= 0.25;
+  write_trajectory(folder / "estimate.txt", small);
+  write_trajectory(folder / "truth.txt", square(0));
+  const auto compare = [&](const std::string& kind) {
+    return surefield_command({"eval", "--trajectory", folder / "estimate.txt", "--ground-truth",
+                              folder / "truth.txt", "--align", kind, "--json", folder / "errors.json"},
+                             folder.path());
+  };
+  const Outcome similar = compare("sim3");
+  CHECK_MESSAGE(similar.code == 0, similar.err);
+  CHECK(contains(similar.out, "scale            4\n"));
+  CHECK(contains(similar.out, "ATE RMSE         0.000 cm"));
+  const nlohmann::json json = read_json(folder / "errors.json");
+  CHECK(json["alignment"] == "sim3");
+  CHECK(json["scale"].get<double>() == doctest::Approx(4).epsilon(1e-6));
+  CHECK(json["rpe_1s_translation_rmse_m"].is_null());
+  CHECK(compare("none").code == 0);
+  CHECK(read_json(folder / "errors.json")["ate_rmse_m"].get<double>() > 1);
+  CHECK(compare("affine").code == 2);
+}
+
 TEST_CASE("eval names what it cannot compare") {
   const TemporaryFolder folder;
   write_trajectory(folder / "estimate.txt", square(0));
@@ -130,6 +192,10 @@ TEST_CASE("eval names what it cannot compare") {
   };
   CHECK(contains(message(folder / "one.txt"), "surefield: error: "));
   CHECK(contains(message("/no/such"), "/no/such: no such file"));
+  Trajectory later = square(0);
+  for (StampedPose& pose : later) pose.timestamp += 1000;
+  write_trajectory(folder / "later.txt", later);
+  CHECK(contains(message(folder / "later.txt"), "clocks differ by 1000.000 s"));
   CHECK(contains(message(folder.path()), "no known dataset layout"));
   CHECK(contains(surefield_command({"eval"}, folder.path()).err, "give --run, or --trajectory"));
   CHECK(contains(surefield_command({"eval", "--run", folder.path()}, folder.path()).err,

@@ -82,7 +82,7 @@ TEST_CASE("a run stores its map compactly when asked to, and commands find it th
   const TemporaryFolder folder;
   folder.write("out/map.ply", "of an earlier run");
   std::vector<std::string> arguments = short_run(folder / "out");
-  arguments.insert(arguments.end(), {"--map-format", "spz"});
+  arguments.insert(arguments.end(), {"--map-format", "spz", "--overwrite"});
   const Outcome run = surefield_command(arguments, folder.path());
   CHECK_MESSAGE(run.code == 0, run.err);
   CHECK_FALSE(std::filesystem::exists(folder / "out/map.ply"));

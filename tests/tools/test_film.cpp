@@ -5,6 +5,7 @@
 #include <opencv2/videoio.hpp>
 
 #include "engine/formats/ply.h"
+#include "engine/io/file_names.h"
 #include "engine/io/files.h"
 #include "engine/io/images.h"
 #include "engine/io/trajectory_file.h"
@@ -100,7 +101,7 @@ TEST_CASE("render follows the camera of a run, and shows what it saw from where 
         folder.path());
   };
   const auto count = [&](const std::string& name) {
-    return numbered_files(folder / name, "", ".png").size();
+    return numbered_files(folder / name, {}, ".png").size();
   };
   const Outcome own = render("trajectory", {"--mode", "all"});
   REQUIRE_MESSAGE(own.code == 0, own.err);
@@ -169,7 +170,7 @@ TEST_CASE("an interrupted run leaves the film of what it did") {
   const TemporaryFolder folder;
   Program run(with(short_run(folder / "out", 60), {"--film", folder / "run.avi", "--film-size", "64x36"}),
               folder.path());
-  wait_for(folder / "out/log.txt", "frame 1:");
+  wait_for(folder / "out.partial/log.txt", "frame 1:");
   run.signal(SIGINT);
   CHECK(run.wait() == 130);
   const auto fed = static_cast<int>(read_trajectory(folder / "out/trajectory.txt").size());

@@ -1,5 +1,6 @@
 // The commands `vocabulary` and `places`.
 #include "engine/io/files.h"
+#include "engine/io/text_file.h"
 #include "tests/tools/support.h"
 
 using namespace surefield;

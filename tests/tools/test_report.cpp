@@ -83,15 +83,33 @@ TEST_CASE("a report needs neither dataset nor device, names are escaped, and 100
   const std::string html = make_report({(folder / "a<b>&c").string()}, folder);
   check_self_contained(html);
   CHECK(html.size() < 1'000'000);
-  for (const char* part : {"<title>Surefield: a&lt;b&gt;&amp;c</title>", "&lt;loop&gt; &amp; co",
-                           "1000 of 1000 frames tracked, 1 lost", "1.23 cm", "31.2 dB", "7.25 frames/s",
-                           "ATE RMSE", "From above", "Tracking loss", "Time per stage", "frame 2 lost",
-                           "the dataset is not here", "iterations: 1000", "Gaussians in the map"}) {
+  for (const char* part :
+       {"<title>Surefield: a&lt;b&gt;&amp;c</title>", "&lt;loop&gt; &amp; co",
+        "1000 of 1000 frames tracked, 1 lost", "1.23 cm", "31.2 dB", "7.25 frames/s", "ATE RMSE",
+        "1st and 2nd principal axis", "Tracking loss", "Time per stage", "frame 2 lost",
+        "the dataset is not here", "iterations: 1000", "Gaussians in the map", "seed 1, ",
+        " UTC; other than the defaults: adam.iterations = 1000"}) {
     CAPTURE(part);
     CHECK(contains(html, part));
   }
   CHECK_FALSE(contains(html, "<loop>"));
   CHECK_FALSE(contains(html, "<img"));
+}
+
+TEST_CASE("a report of a run that lacks numbers shows dashes, and no nan") {
+  const TemporaryFolder folder;
+  write_run(folder, "bare", 5);
+  nlohmann::json metrics = read_json(folder / "bare/metrics.json");
+  metrics["frames"] = {{"total", nullptr}, {"fed", 5}, {"keyframes", 0}};
+  metrics["time"] = nlohmann::json::object();
+  metrics["images"] = nullptr;
+  metrics["trajectory"] = nullptr;
+  metrics["date"] = "2026-01-02 03:04 UTC";
+  folder.write("bare/metrics.json", metrics.dump());
+  const std::string html = make_report({folder / "bare"}, folder);
+  CHECK(contains(html, "seed 1, 2026-01-02 03:04 UTC; "));
+  CHECK(contains(html, "5 frames tracked"));
+  for (const char* missing : {" nan", ">nan", "-nan", "\"nan"}) CHECK_FALSE(contains(html, missing));
 }
 
 TEST_CASE("several runs stand side by side, with the settings in which they differ") {

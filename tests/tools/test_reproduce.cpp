@@ -102,6 +102,19 @@ TEST_CASE("reproduce runs what it finds, resumes, and puts its results beside th
   CHECK(contains(read_file(folder / "out/tables.md"), "images of 16 x 12"));
 }
 
+TEST_CASE("reproduce that finds no data says what to fetch and writes no table") {
+  const TemporaryFolder folder;
+  std::filesystem::create_directories(folder / "data");
+  for (const std::string& data : {std::string(), " --data '" + (folder / "data").string() + "'"}) {
+    const Outcome outcome =
+        reproduce(folder, "tracking-tum runtime --out '" + (folder / "out").string() + "'" + data);
+    CHECK(outcome.code == 2);
+    CHECK(contains(outcome.err, "none of the sequences of tracking-tum runtime is in "));
+    CHECK(contains(outcome.err, "surefield fetch"));
+    CHECK_FALSE(std::filesystem::exists(folder / "out/tables.md"));
+  }
+}
+
 TEST_CASE("reproduce measures surfaces where there is a true mesh, and says where there is none") {
   const TemporaryFolder folder;
   write_wall(folder, "data/room0");
@@ -212,10 +225,11 @@ esac
                  "synth --scene apartment --path fast --sensor kinect --frames 80 --seed 1 --size 320x240"));
   CHECK(contains(calls, "/synth/ablations/office --out " +
                             (folder / "out/runs/ablations/office/full/seed3").string() +
-                            " --scale 0.5 --set seed=3 --frames 80\n"));
-  CHECK(contains(calls,
-                 "/ablations/fr1_xyz/no-align/seed1 --scale 0.25 --set seed=1 --set mapping.weight_align=0 "
-                 "--frames 60\n"));
+                            " --overwrite --scale 0.5 --set seed=3 --frames 80\n"));
+  CHECK(contains(
+      calls,
+      "/ablations/fr1_xyz/no-align/seed1 --overwrite --scale 0.25 --set seed=1 --set mapping.weight_align=0 "
+      "--frames 60\n"));
   SlamSettings settings;
   ConfigSchema schema;
   settings.bind(schema);
@@ -231,8 +245,8 @@ esac
   CHECK_FALSE(contains(ablate(""), "\n== ablations/office/full/seed1\n"));
   CHECK(read_file(folder / "calls.txt") == calls);
   ablate("--scale 0.3 --frames 9 --seeds 1");
-  CHECK(
-      contains(read_file(folder / "calls.txt"), "/office/full/seed1 --scale 0.3 --set seed=1 --frames 9\n"));
+  CHECK(contains(read_file(folder / "calls.txt"),
+                 "/office/full/seed1 --overwrite --scale --set seed=1 --frames 9\n"));
 }
 
 TEST_CASE("ablations mark what lies within the spread, and name what is beyond") {

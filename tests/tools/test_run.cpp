@@ -53,8 +53,15 @@ TEST_CASE("a run leaves its results, and metrics of the documented schema") {
   const TemporaryFolder folder;
   folder.write("out/notes.txt", "mine");
   folder.write("out/metrics.json", "of an earlier run");
-  const Outcome outcome = surefield_command(short_run(folder / "out"), folder.path());
+  auto arguments = short_run(folder / "out");
+  const Outcome refused = surefield_command(arguments, folder.path());
+  CHECK(refused.code == 2);
+  CHECK(contains(refused.err, "holds files that are no results of a run (notes.txt)"));
+  CHECK(read_file(folder / "out/metrics.json") == "of an earlier run");
+  arguments.push_back("--overwrite");
+  const Outcome outcome = surefield_command(arguments, folder.path());
   REQUIRE_MESSAGE(outcome.code == 0, outcome.err);
+  CHECK_FALSE(std::filesystem::exists(folder / "out.partial"));
   CHECK(contains(outcome.out, "ATE RMSE"));
   CHECK(contains(outcome.out, (folder / "out").string()));
   CHECK(contains(outcome.err, "3/3"));
@@ -71,11 +78,14 @@ TEST_CASE("a run leaves its results, and metrics of the documented schema") {
   CHECK(settings.depth_max == 10);
 
   const nlohmann::json json = read_json(folder / "out/metrics.json");
-  CHECK(keys(json) == std::set<std::string>{"schema", "version", "status", "error", "program", "device",
-                                            "dataset", "frames", "time", "map", "memory", "trajectory",
-                                            "images", "skipped", "per_frame"});
+  CHECK(keys(json) == std::set<std::string>{"schema", "version", "run", "status", "error", "date", "program",
+                                            "device", "dataset", "frames", "time", "map", "memory",
+                                            "trajectory", "images", "skipped", "per_frame"});
   CHECK(json["schema"] == "surefield-metrics");
   CHECK(json["version"] == 1);
+  CHECK(contains(read_file(folder / "out/log.txt"), "run " + json["run"]["id"].get<std::string>()));
+  CHECK(keys(json["run"]["files"]) ==
+        std::set<std::string>{"trajectory.txt", "keyframes.txt", "map.ply", "frames.csv", "config.yaml"});
   CHECK(json["status"] == "completed");
   CHECK(json["frames"] == nlohmann::json{{"total", 3},
                                          {"fed", 3},
@@ -116,7 +126,8 @@ TEST_CASE("frames.csv says of each frame what metrics.json says") {
   std::string line;
   std::getline(csv, line);
   CHECK(line ==
-        "index,timestamp_s,keyframe,lost,retries,loss,valid_fraction,tracking_iterations,tracking_ms,"
+        "index,timestamp_s,keyframe,lost,gain_red,gain_green,gain_blue,retries,loss,valid_fraction,tracking_"
+        "iterations,tracking_ms,"
         "mapping_iterations,mapping_ms,gaussians,uncertain_gaussians,device_gaussians,"
         "device_mb");
   for (const auto& frame : frames) {
@@ -176,13 +187,21 @@ TEST_CASE("a corrupt and a missing frame are skipped, counted and named") {
   CHECK(read_trajectory(folder / "out/trajectory.txt").size() == 4);
 }
 
-TEST_CASE("Ctrl-C saves everything and exits with 130") {
+TEST_CASE("a signal saves everything and ends with 130") {
   const TemporaryFolder folder;
   Program program(short_run(folder / "out", 60), folder.path());
-  wait_for(folder / "out/log.txt", "frame 1:");
-  program.signal(SIGINT);
+  wait_for(folder / "out.partial/log.txt", "frame 1:");
+  int number = SIGINT;
+  SUBCASE("SIGINT") {}
+  SUBCASE("SIGTERM") {
+    number = SIGTERM;
+  }
+  SUBCASE("SIGHUP") {
+    number = SIGHUP;
+  }
+  program.signal(number);
   CHECK(program.wait() == 130);
-  CHECK(contains(program.err(), "Stopping after this frame"));
+  CHECK(contains(program.err(), "Stopping"));
   const nlohmann::json json = read_json(folder / "out/metrics.json");
   CHECK(json["status"] == "interrupted");
   const std::size_t fed = json["frames"]["fed"];
@@ -194,27 +213,126 @@ TEST_CASE("Ctrl-C saves everything and exits with 130") {
   CHECK(read_ply(folder / "out/map.ply").cloud.size() == json["map"]["gaussians"]);
 }
 
-TEST_CASE("a second Ctrl-C quits at once") {
+TEST_CASE("a signal in the middle of the first frame does not wait for its mapping") {
   const TemporaryFolder folder;
   auto arguments = short_run(folder / "out");
   arguments.insert(arguments.end(), {"--set", "first_iterations=100000"});
   Program program(arguments, folder.path());
-  wait_for(folder / "out/log.txt", "frames of");
+  wait_for(folder / "out.partial/log.txt", "frames of");
   program.signal(SIGINT);
-  wait_for(folder / "stderr.txt", "Stopping");
-  program.signal(SIGTERM);
   CHECK(program.wait() == 130);
-  CHECK_FALSE(std::filesystem::exists(folder / "out/map.ply"));
+  CHECK(contains(program.err(), "Stopping"));
 }
 
-TEST_CASE("[slow] a full disk costs only what does not fit") {
+TEST_CASE("nothing computed replaces nothing") {
+  const TemporaryFolder folder;
+  write_replica(folder, 6);
+  auto arguments = short_run(folder / "out", 6);
+  arguments[2] = folder.path();
+  REQUIRE(surefield_command(arguments, folder.path()).code == 0);
+  const std::string before = read_file(folder / "out/metrics.json");
+  for (int i = 0; i < 6; ++i) folder.write("results/depth00000" + std::to_string(i) + ".png", "no image");
+  const Outcome refused = surefield_command(arguments, folder.path());
+  CHECK(refused.code == 2);
+  CHECK(contains(refused.err, "holds an earlier run"));
+  arguments.push_back("--overwrite");
+  const Outcome outcome = surefield_command(arguments, folder.path());
+  CHECK(outcome.code == 2);
+  CHECK(contains(outcome.err, "none of the first 5 frames can be read: "));
+  CHECK(contains(outcome.err, "depth000000.png"));
+  CHECK(read_file(folder / "out/metrics.json") == before);
+  CHECK_FALSE(std::filesystem::exists(folder / "out.partial"));
+}
+
+TEST_CASE("what looks wrong is said before the first frame, and a strict run does not begin") {
+  const TemporaryFolder folder;
+  write_replica(folder, 2);
+  nlohmann::json camera = read_json(folder / "cam_params.json");
+  camera["camera"]["cx"] = 1000;
+  folder.write("cam_params.json", camera.dump());
+  auto arguments = short_run(folder / "out", 2);
+  arguments[2] = folder.path();
+  arguments.push_back("--strict");
+  const Outcome strict = surefield_command(arguments, folder.path());
+  CHECK(strict.code == 4);
+  CHECK(contains(strict.err, "surefield: warning: "));
+  CHECK(contains(strict.err, "1000"));
+  CHECK_FALSE(std::filesystem::exists(folder / "out.partial"));
+  CHECK_FALSE(std::filesystem::exists(folder / "out"));
+}
+
+TEST_CASE("depth that no pixel has in reach is named with what was read") {
+  const TemporaryFolder folder;
+  write_replica(folder, 6);
+  auto arguments = short_run(folder / "out", 6);
+  arguments[2] = folder.path();
+  arguments.insert(arguments.end(), {"--assume-depth-unit", "1"});
+  const Outcome outcome = surefield_command(arguments, folder.path());
+  CHECK(outcome.code == 2);
+  CHECK(contains(outcome.err,
+                 "none of the 5 frames so far can be used: the first frame has no depth up to depth_max"));
+  CHECK(contains(outcome.err, "depth_unit"));
+}
+
+TEST_CASE("results of two runs that are mixed are refused") {
+  const TemporaryFolder folder;
+  REQUIRE(surefield_command(short_run(folder / "a", 2), folder.path()).code == 0);
+  auto arguments = short_run(folder / "b", 2);
+  arguments.insert(arguments.end(), {"--set", "seed=7"});
+  REQUIRE(surefield_command(arguments, folder.path()).code == 0);
+  std::string file = "config.yaml";
+  SUBCASE("the settings of one and the map of another") {}
+  SUBCASE("the map") {
+    file = "map.ply";
+  }
+  SUBCASE("metrics") {
+    file = "metrics.json";
+  }
+  std::filesystem::copy_file(folder / "a" / file, folder / "b" / file,
+                             std::filesystem::copy_options::overwrite_existing);
+  for (const char* command : {"eval", "report"}) {
+    std::vector<std::string> reading = {command, folder / "b"};
+    if (reading[0] == "eval") reading.insert(reading.begin() + 1, "--run");
+    if (reading[0] == "report") reading.insert(reading.end(), {"--out", folder / "report.html"});
+    const Outcome outcome = surefield_command(reading, folder.path());
+    CHECK(outcome.code == 2);
+    CHECK(contains(outcome.err, "results of two runs are mixed"));
+  }
+}
+
+TEST_CASE("two runs at once: the second one is refused") {
+  const TemporaryFolder folder;
+  Program first(short_run(folder / "out", 60), folder.path());
+  wait_for(folder / "out.partial/log.txt", "run ");
+  std::filesystem::create_directories(folder / "second");
+  auto arguments = short_run(folder / "out", 60);
+  arguments.push_back("--overwrite");
+  const Outcome second = surefield_command(arguments, folder / "second");
+  CHECK(second.code == 2);
+  CHECK(contains(second.err, "another run is writing there"));
+}
+
+TEST_CASE("more than a tenth of unusable frames is said, also by a quiet run") {
+  const TemporaryFolder folder;
+  write_replica(folder, 6);
+  folder.write("results/frame000002.jpg", "no image");
+  auto arguments = short_run(folder / "out", 6);
+  arguments[2] = folder.path();
+  arguments.push_back("--quiet");
+  const Outcome outcome = surefield_command(arguments, folder.path());
+  CHECK(outcome.code == 0);
+  CHECK(contains(outcome.err, "1 of 6 frames could not be used, the first because: "));
+  CHECK(contains(outcome.err, "frame000002.jpg"));
+}
+
+TEST_CASE("[slow] on a full disk what fits stays beside, and an earlier run where it was") {
   const TemporaryFolder folder;
   Program program(short_run(folder / "out"), folder.path(), 16000);
   CHECK(program.wait() == 1);
   CHECK(contains(program.err(), "surefield: error: map.ply is not saved: "));
-  CHECK_FALSE(std::filesystem::exists(folder / "out/map.ply"));
-  CHECK(read_trajectory(folder / "out/trajectory.txt").size() == 3);
-  CHECK(read_json(folder / "out/metrics.json")["frames"]["fed"] == 3);
+  CHECK_FALSE(std::filesystem::exists(folder / "out"));
+  CHECK(read_trajectory(folder / "out.partial/trajectory.txt").size() == 3);
+  CHECK(read_json(folder / "out.partial/metrics.json")["frames"]["fed"] == 3);
 }
 
 TEST_CASE("a device that is not there is a device error") {

@@ -7,13 +7,13 @@
 #include <cmath>
 #include <random>
 
-#include "engine/formats/map_file.h"
 #include "engine/io/camera_json.h"
-#include "engine/io/files.h"
+#include "engine/io/text_file.h"
 #include "engine/io/json_file.h"
 #include "engine/synth/camera_path.h"
 #include "engine/synth/scene_renderer.h"
 #include "engine/types/error.h"
+#include "tools/shared/load_map.h"
 
 namespace surefield {
 
@@ -151,7 +151,7 @@ BenchScene make_bench_scene(gpu::Device& device, std::string_view name) {
 }
 
 BenchScene load_bench_scene(const std::string& map_file, const std::string& camera_file) {
-  BenchScene scene{.name = map_file, .cloud = read_map(map_file).cloud};
+  BenchScene scene{.name = map_file, .cloud = load_map(map_file)};
   const JsonObject json(camera_file);
   scene.camera.intrinsics = read_intrinsics(json, "width", "height");
   const nlohmann::json& rows = json.at("world_to_camera");

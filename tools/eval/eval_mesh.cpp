@@ -9,11 +9,11 @@
 
 #include "engine/eval/mesh_alignment.h"
 #include "engine/eval/mesh_metrics.h"
-#include "engine/formats/map_file.h"
 #include "engine/io/files.h"
 #include "engine/types/error.h"
 #include "tools/results/run_folder.h"
 #include "tools/shared/command.h"
+#include "tools/shared/load_map.h"
 
 namespace surefield {
 
@@ -139,7 +139,7 @@ std::string table(const CentreDistances& d) {
 
 std::vector<Eigen::Vector3d> centres_of(const std::string& map) {
   std::vector<Eigen::Vector3d> centres;
-  for (const Eigen::Vector3f& mean : read_map(map).cloud.means) centres.push_back(mean.cast<double>());
+  for (const Eigen::Vector3f& mean : load_map(map).means) centres.push_back(mean.cast<double>());
   if (centres.empty()) throw InputError(map, "holds no Gaussian");
   return centres;
 }

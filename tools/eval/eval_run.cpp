@@ -2,12 +2,16 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+#include <filesystem>
+
 #include "engine/io/files.h"
 #include "engine/types/error.h"
 #include "tools/results/run_folder.h"
 #include "tools/results/trajectory_report.h"
 #include "tools/shared/command.h"
 #include "tools/shared/interrupt.h"
+#include "tools/shared/numbers.h"
 #include "tools/shared/progress.h"
 
 namespace surefield {
@@ -21,15 +25,20 @@ struct TrajectoryErrors {
 };
 
 TrajectoryErrors measure_trajectory(const RunFolder& run, const Dataset& dataset) {
-  const auto measure = [&](const Trajectory& estimate) -> std::optional<TrajectoryMetrics> {
-    if (!dataset.ground_truth) return std::nullopt;
-    try {
-      return evaluate_trajectory(estimate, *dataset.ground_truth);
-    } catch (const InputError&) {
-      return std::nullopt;  // too few poses to compare
-    }
-  };
-  return {measure(run.trajectory), measure(run.keyframes)};
+  TrajectoryErrors errors;
+  if (!dataset.ground_truth) return errors;
+  try {
+    errors.frames = evaluate_trajectory(run.trajectory, *dataset.ground_truth);
+  } catch (const InputError& error) {
+    fmt::print(stderr, "surefield: note: the trajectory is not measured: {}\n", error.what());
+    return errors;
+  }
+  try {
+    errors.keyframes = evaluate_trajectory(run.keyframes, *dataset.ground_truth);
+  } catch (const InputError&) {
+    // Too few keyframes to compare, which the count of keyframes tells.
+  }
+  return errors;
 }
 
 std::optional<MapQuality> measure_images(const EvalRunOptions& options, const RunFolder& run,
@@ -48,29 +57,40 @@ std::optional<MapQuality> measure_images(const EvalRunOptions& options, const Ru
   return measure_map_quality(input);
 }
 
+/// Of the map on disk; NaN where there is none.
+double file_megabytes(const RunFolder& run) {
+  std::error_code error;
+  const auto bytes = std::filesystem::file_size(run.map_file(), error);
+  return error ? NAN : static_cast<double>(bytes) / 1e6;
+}
+
 nlohmann::ordered_json to_json(const RunFolder& run, const TrajectoryErrors& errors,
                                const std::optional<MapQuality>& images) {
   nlohmann::ordered_json json = {{"schema", "surefield-evaluation"}, {"version", 1}};
   json["trajectory"] = trajectory_json(errors.frames, errors.keyframes);
   json["images"] = quality_json(images);
   for (const char* part : {"time", "map", "memory"}) json[part] = run.metrics.at(part);
+  const double size = file_megabytes(run);
+  json["map"]["file_megabytes"] = std::isfinite(size) ? nlohmann::ordered_json(size) : nullptr;
   return json;
 }
 
-/// Runtime and memory, as in the paper's table.
+/// Runtime and memory.
 std::string cost_lines(const RunFolder& run) {
-  const double frames = run.number("/frames/fed"), keyframes = run.number("/frames/keyframes");
-  std::string text;
-  text += fmt::format("tracking         {:.2f} ms x {:.1f} iterations a frame\n",
-                      run.number("/time/tracking_ms_per_iteration"),
-                      run.number("/time/tracking_iterations") / frames);
-  text += fmt::format("mapping          {:.2f} ms x {:.1f} iterations a keyframe\n",
-                      run.number("/time/mapping_ms_per_iteration"),
-                      run.number("/time/mapping_iterations") / keyframes);
-  text += fmt::format("speed            {:.2f} frames/s\n", run.number("/time/frames_per_second"));
-  text += fmt::format("memory           map {:.1f} MB, device {:.1f} MB, host {:.1f} MB\n",
-                      run.number("/map/megabytes"), run.number("/memory/device_peak_mb"),
-                      run.number("/memory/host_peak_mb"));
+  const auto cost = [&](const std::string& what, const char* each, double count) {
+    return fmt::format("{:<16} {} ms a {} ({} iterations of {} ms)\n", what,
+                       shown(1000 * run.number("/time/" + what + "_s") / count, 1), each,
+                       shown(run.number("/time/" + what + "_iterations") / count, 1),
+                       shown(run.number("/time/" + what + "_ms_per_iteration"), 2));
+  };
+  std::string text = cost("tracking", "frame", run.number("/frames/fed"));
+  text += cost("mapping", "keyframe", run.number("/frames/keyframes"));
+  text += fmt::format("speed            {} frames/s\n", shown(run.number("/time/frames_per_second"), 2));
+  text += fmt::format("map              {} MB of memory, {} {} MB\n", shown(run.number("/map/megabytes"), 1),
+                      run.map_file().filename().string(), shown(file_megabytes(run), 1));
+  text += fmt::format("memory           device {} MB, host {} MB\n",
+                      shown(run.number("/memory/device_peak_mb"), 1),
+                      shown(run.number("/memory/host_peak_mb"), 1));
   return text;
 }
 

@@ -6,7 +6,6 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 
-#include "engine/formats/map_file.h"
 #include "engine/io/files.h"
 #include "engine/sources/frame_stream.h"
 #include "engine/synth/random.h"
@@ -16,6 +15,7 @@
 #include "tools/results/run_folder.h"
 #include "tools/shared/command.h"
 #include "tools/shared/interrupt.h"
+#include "tools/shared/load_map.h"
 #include "tools/shared/progress.h"
 
 namespace surefield {
@@ -115,7 +115,7 @@ class Basin {
       : run_(run), seed_(options.seed), engine_(options.engine) {
     load_settings(settings_,
                   {.config = (run.path / "config.yaml").string(), .assignments = options.assignments}, "");
-    engine_.assign(read_map(run.map_file()).cloud, settings_.depth_model);
+    engine_.assign(load_map(run.map_file()), settings_.depth_model);
   }
 
   /// Tracks a frame from all starting poses. Returns false, with nothing done, where it cannot be read.

@@ -11,6 +11,7 @@
 #include "tools/export/web_page.h"
 #include "tools/report/report_data.h"
 #include "tools/shared/command.h"
+#include "tools/shared/load_map.h"
 
 namespace surefield {
 
@@ -68,11 +69,10 @@ int export_map(const ExportOptions& options) {
   const MapFormat format = format_of(options);
   std::filesystem::path from = options.map;
   if (options.map.empty()) from = read_run(options.run).map_file();
-  const MapFile map = read_map(from);
-  write_map(options.out, map.cloud, format);
-  fmt::print("{} Gaussians of SH degree {}: {} ({:.2f} MB) -> {} ({:.2f} MB)\n", map.cloud.size(),
-             map.cloud.sh_degree, from.string(), megabytes(from), options.out, megabytes(options.out));
-  if (map.dropped > 0) fmt::print("left out {} Gaussians that are not finite\n", map.dropped);
+  const GaussianCloud map = load_map(from);
+  write_map(options.out, map, format);
+  fmt::print("{} Gaussians of SH degree {}: {} ({:.2f} MB) -> {} ({:.2f} MB)\n", map.size(), map.sh_degree,
+             from.string(), megabytes(from), options.out, megabytes(options.out));
   return kSuccess;
 }
 
@@ -105,7 +105,7 @@ int export_web(const ExportOptions& options) {
   } else {
     content.title = from.stem().string();
   }
-  content.map = read_map(from).cloud;
+  content.map = load_map(from);
   std::error_code error;
   std::filesystem::create_directories(options.web, error);
   if (error) throw InputError(options.web, "cannot be created: " + error.message());

@@ -119,7 +119,7 @@ Input open_input(const MeshOptions& options) {
     input.run = read_run(options.run);
     input.dataset = open_dataset_of(*input.run, options.dataset);
   } else {
-    input.dataset = open_dataset(options.dataset, options.format);
+    input.dataset = open_dataset(options.dataset, {.format = options.format});
   }
   input.depth_max = depth_limit(options, input);
   const Recording& recording = *input.dataset.recording;

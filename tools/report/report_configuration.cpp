@@ -2,16 +2,22 @@
 #include <fmt/format.h>
 #include <yaml-cpp/yaml.h>
 
+#include <cmath>
 #include <map>
 #include <set>
 
+#include "engine/io/files.h"
+#include "engine/io/text_file.h"
 #include "engine/report/html.h"
 #include "engine/types/error.h"
 #include "tools/report/report_sections.h"
+#include "tools/results/run_configuration.h"
 
 namespace surefield {
 
 namespace {
+
+constexpr std::size_t kNamedSettings = 12;  // more would fill the top of the page; all stand below
 
 using Settings = std::map<std::string, std::string>;
 
@@ -26,17 +32,29 @@ void flatten(const YAML::Node& node, const std::string& key, Settings& settings)
   }
 }
 
-/// The settings of a run, with what the command line said of its frames.
-Settings settings_of(const ReportRun& run) {
+Settings configuration_of(const ReportRun& run) {
   Settings settings;
   try {
     flatten(YAML::Load(run.folder.configuration), "", settings);
   } catch (const YAML::Exception&) {
     throw InputError(run.folder.path / "config.yaml", "is no YAML");
   }
+  return settings;
+}
+
+/// Whether two values are the same, as numbers where they are numbers.
+bool same_value(const std::string& a, const std::string& b) {
+  if (a == b) return true;
+  const auto x = parse_numbers(a), y = parse_numbers(b);
+  return x && y && *x == *y;
+}
+
+/// The settings of a run, with what the command line said of its frames.
+Settings settings_of(const ReportRun& run) {
+  Settings settings = configuration_of(run);
   for (const char* key : {"start", "stride", "scale"}) {
-    settings[std::string("--") + key] =
-        fmt::format("{:g}", run.folder.number(std::string("/dataset/") + key));
+    const double value = run.folder.number(std::string("/dataset/") + key);
+    settings[std::string("--") + key] = std::isnan(value) ? "–" : fmt::format("{:g}", value);
   }
   settings["device"] = run.folder.text("/device/name");
   settings["commit"] = run.folder.text("/program/commit");
@@ -71,6 +89,28 @@ std::string differences(const std::vector<ReportRun>& runs) {
 }
 
 }  // namespace
+
+std::string seed_of(const ReportRun& run) {
+  const Settings settings = configuration_of(run);
+  const auto seed = settings.find("seed");
+  return seed == settings.end() ? "unknown" : seed->second;
+}
+
+std::string changed_settings(const ReportRun& run) {
+  SlamSettings unused;
+  Settings defaults;
+  flatten(YAML::Load(load_settings(unused, {}, run.folder.text("/dataset/format"))), "", defaults);
+  std::string text;
+  std::size_t changed = 0;
+  for (const auto& [key, value] : configuration_of(run)) {
+    const auto usual = defaults.find(key);
+    if (key == "seed" || (usual != defaults.end() && same_value(value, usual->second))) continue;
+    if (++changed > kNamedSettings) continue;
+    text += (text.empty() ? "" : ", ") + key + " = " + value;
+  }
+  if (changed > kNamedSettings) text += fmt::format(" and {} more", changed - kNamedSettings);
+  return text;
+}
 
 std::string configuration_section(const std::vector<ReportRun>& runs) {
   std::string html = "<section><h2>Configuration</h2>\n";

@@ -34,8 +34,9 @@ void measure_errors(ReportRun& run) {
   const Trajectory& truth = *run.dataset->ground_truth;
   try {
     run.accuracy = evaluate_trajectory(run.folder.trajectory, truth);
-  } catch (const InputError&) {
-    return;  // too few poses to compare
+  } catch (const InputError& error) {
+    run.truth_problem = error.what();
+    return;
   }
   std::map<double, int> frame_at;
   for (std::size_t i = 0; i < run.frames(); ++i) {

@@ -25,6 +25,7 @@ struct ReportRun {
   std::optional<Dataset> dataset;  ///< nullopt where it is not there any more
   std::string dataset_problem;     ///< why
   std::optional<TrajectoryMetrics> accuracy;
+  std::string truth_problem;    ///< why there is none, where there is a truth
   std::vector<PosePair> pairs;  ///< poses and truths, both in the truth's world
   std::vector<FrameError> errors;
   double path_length = 0;  ///< of the true positions, metres

@@ -1,5 +1,8 @@
+#include <fmt/chrono.h>
 #include <fmt/format.h>
 
+#include <chrono>
+#include <filesystem>
 #include <set>
 
 #include "engine/report/html.h"
@@ -98,6 +101,25 @@ std::string heading(const std::vector<ReportRun>& runs) {
   return fmt::format("{} runs", runs.size());
 }
 
+/// When a run was saved; where an older one does not say, when its file was written.
+std::string date_of(const ReportRun& run) {
+  if (const std::string date = run.folder.text("/date"); !date.empty()) return date;
+  std::error_code error;
+  const auto written = std::filesystem::last_write_time(run.folder.path / "metrics.json", error);
+  if (error) return "date unknown";
+  const auto seconds = std::chrono::floor<std::chrono::seconds>(std::chrono::file_clock::to_sys(written));
+  return fmt::format("{:%Y-%m-%d %H:%M} UTC", fmt::gmtime(std::chrono::system_clock::to_time_t(seconds)));
+}
+
+/// What makes a run another one than its neighbours: seed, date, settings.
+std::string origin_line(const ReportRun& run, const std::string& label) {
+  const std::string changed = changed_settings(run);
+  return fmt::format(
+      "<p class=\"meta\">{}seed {}, {}; {}</p>\n", escape_html(label), escape_html(seed_of(run)),
+      escape_html(date_of(run)),
+      escape_html(changed.empty() ? "all settings are the defaults" : "other than the defaults: " + changed));
+}
+
 std::string header(const std::vector<ReportRun>& runs) {
   const auto text = [&](const char* pointer) {
     return distinct(runs, [&](const ReportRun& run) { return run.folder.text(pointer); });
@@ -106,10 +128,12 @@ std::string header(const std::vector<ReportRun>& runs) {
     return fmt::format("{:.0f} × {:.0f}", run.folder.number("/dataset/width"),
                        run.folder.number("/dataset/height"));
   });
-  return fmt::format(
-      "<header><h1>{}</h1><p class=\"meta\">Surefield run on {} ({}), {} pixels, {}</p></header>\n",
+  std::string html = fmt::format(
+      "<header><h1>{}</h1><p class=\"meta\">Surefield run on {} ({}), {} pixels, {}</p>\n",
       escape_html(heading(runs)), escape_html(text("/dataset/name")), escape_html(text("/dataset/format")),
       escape_html(sizes), escape_html(text("/device/name")));
+  for (const ReportRun& run : runs) html += origin_line(run, runs.size() > 1 ? run.label + ": " : "");
+  return html + "</header>\n";
 }
 
 }  // namespace

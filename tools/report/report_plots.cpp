@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <Eigen/Eigenvalues>
+#include <cmath>
 #include <functional>
 #include <numbers>
 
@@ -164,10 +165,12 @@ std::string stage_figure(const std::vector<ReportRun>& runs) {
   for (const ReportRun& run : runs) {
     const double tracking = run.folder.number("/time/tracking_s"),
                  mapping = run.folder.number("/time/mapping_s");
-    const double rest = std::max(0.0, run.folder.number("/time/total_s") - tracking - mapping);
+    if (!std::isfinite(tracking + mapping)) continue;  // it ended before anything was timed
+    const double total = run.folder.number("/time/total_s");
+    const double rest = std::isfinite(total) ? std::max(0.0, total - tracking - mapping) : 0;
     chart.bars.push_back({run.label, {tracking, mapping, rest}});
   }
-  return bar_figure(chart);
+  return chart.bars.empty() ? "" : bar_figure(chart);
 }
 
 }  // namespace
@@ -188,14 +191,17 @@ std::string trajectory_section(const std::vector<ReportRun>& runs) {
   std::string html =
       "<section><h2>Trajectory</h2>\n<p class=\"note\">In the principal axes of the path: the first is that "
       "along "
-      "which it is longest, the third that along which it is shortest. Rings mark the start.</p>\n";
+      "which it is longest, the third that along which it is shortest; where down is, nothing says. Rings "
+      "mark "
+      "the start.</p>\n";
   const std::vector<RunGroup> groups = group_by_dataset(runs);
   for (const RunGroup& group : groups) {
     const std::vector<Path> paths = paths_of(runs, group);
     const PrincipalAxes axes = principal_axes(paths.front().positions);
     const std::string prefix = groups.size() > 1 ? group.dataset + ": " : "";
-    html += "<div class=\"figures\">\n" + plot_figure(map_plot(prefix + "From above", paths, axes, 1)) +
-            plot_figure(map_plot(prefix + "From the side", paths, axes, 2)) + "</div>\n";
+    html += "<div class=\"figures\">\n" +
+            plot_figure(map_plot(prefix + "1st and 2nd principal axis", paths, axes, 1)) +
+            plot_figure(map_plot(prefix + "1st and 3rd principal axis", paths, axes, 2)) + "</div>\n";
   }
   return html + "</section>\n";
 }

@@ -21,7 +21,7 @@ std::string verdict_section(const std::vector<ReportRun>& runs);
 /// Tables of all measures over runs.
 std::string summary_section(const std::vector<ReportRun>& runs);
 
-/// Trajectories from above and from the side, one pair of plots per dataset.
+/// Trajectories along their principal axes, one pair of plots per dataset.
 std::string trajectory_section(const std::vector<ReportRun>& runs);
 
 /// Errors, tracking, size of the map and time, frame by frame.
@@ -39,6 +39,13 @@ std::string image_section(const std::vector<ReportRun>& runs, const ImageOptions
 
 /// The settings: those that differ between runs side by side, then all of each run.
 std::string configuration_section(const std::vector<ReportRun>& runs);
+
+/// The seed that a run had, as its configuration says.
+std::string seed_of(const ReportRun& run);
+
+/// The settings in which a run differs from the defaults of its dataset's format, its seed aside, for people;
+/// empty where there are none.
+std::string changed_settings(const ReportRun& run);
 
 /// Runs of one dataset.
 struct RunGroup {

@@ -33,10 +33,11 @@ std::function<double(const ReportRun&)> metric(const std::string& pointer, doubl
   return [=](const ReportRun& run) { return factor * run.folder.number(pointer); };
 }
 
-std::function<double(const ReportRun&)> ratio(const std::string& above, const std::string& below) {
+std::function<double(const ReportRun&)> ratio(const std::string& above, const std::string& below,
+                                              double factor = 1) {
   return [=](const ReportRun& run) {
     const double divisor = run.folder.number(below);
-    return divisor > 0 ? run.folder.number(above) / divisor : kNone;
+    return divisor > 0 ? factor * run.folder.number(above) / divisor : kNone;
   };
 }
 
@@ -80,6 +81,9 @@ std::vector<MeasureGroup> accuracy_groups() {
 std::vector<MeasureGroup> cost_groups() {
   return {{"Runtime",
            {{"Speed", "frames/s", 2, Better::Higher, metric("/time/frames_per_second")},
+            {"Tracking, each frame", "ms", 1, Better::Lower, ratio("/time/tracking_s", "/frames/fed", 1000)},
+            {"Mapping, each keyframe", "ms", 1, Better::Lower,
+             ratio("/time/mapping_s", "/frames/keyframes", 1000)},
             {"Tracking, each iteration", "ms", 2, Better::Lower, metric("/time/tracking_ms_per_iteration")},
             {"Tracking iterations", "a frame", 1, Better::Lower,
              ratio("/time/tracking_iterations", "/frames/fed")},
@@ -89,7 +93,7 @@ std::vector<MeasureGroup> cost_groups() {
             {"Total", "s", 1, Better::Lower, metric("/time/total_s")}}},
           {"Memory",
            {{"Gaussians", "", 0, Better::Lower, metric("/map/gaussians")},
-            {"Map", "MB", 2, Better::Lower, metric("/map/megabytes")},
+            {"Map in memory", "MB", 2, Better::Lower, metric("/map/megabytes")},
             {"Device, at most", "MB", 1, Better::Lower, metric("/memory/device_peak_mb")},
             {"Host, at most", "MB", 1, Better::Lower, metric("/memory/host_peak_mb")}}},
           {"Frames",
@@ -154,8 +158,9 @@ const char* verdict(const ReportRun& run) {
 
 std::string verdict_text(const ReportRun& run) {
   const std::string status = run.folder.text("/status");
-  std::string text = fmt::format("{:.0f} of {:.0f} frames tracked", run.folder.number("/frames/fed"),
-                                 run.folder.number("/frames/total"));
+  const double total = run.folder.number("/frames/total");
+  std::string text = shown(run.folder.number("/frames/fed"), 0) +
+                     (std::isfinite(total) ? fmt::format(" of {:.0f}", total) : "") + " frames tracked";
   text += count_of(run, "lost", "lost") + count_of(run, "skipped", "skipped");
   if (status != "completed")
     text += "; the run " + (status == "failed" ? "failed: " + run.folder.text("/error") : "was interrupted");
@@ -170,7 +175,7 @@ std::string verdict_text(const ReportRun& run) {
     text +=
         fmt::format("; positions off by {:.2f} cm (RMSE)", 100 * run.folder.number("/trajectory/ate_rmse_m"));
   } else {
-    text += "; no ground truth to compare with";
+    text += "; " + (run.truth_problem.empty() ? "no ground truth to compare with" : run.truth_problem);
   }
   const double psnr = run.folder.number("/images/psnr_db");
   if (std::isfinite(psnr)) text += fmt::format("; renders match the images with {:.1f} dB", psnr);
@@ -226,14 +231,12 @@ std::string cards(const ReportRun& run) {
                fmt::format("PSNR; SSIM {}, depth {} cm", shown(number("/images/ssim"), 3),
                            shown(100 * number("/images/depth_l1_m"), 2)));
   html += card("Speed", shown(number("/time/frames_per_second"), 2) + " frames/s",
-               fmt::format("tracking {} ms × {}, mapping {} ms × {}",
-                           shown(number("/time/tracking_ms_per_iteration"), 1),
-                           shown(number("/time/tracking_iterations") / fed, 0),
-                           shown(number("/time/mapping_ms_per_iteration"), 1),
-                           shown(number("/time/mapping_iterations") / keyframes, 0)));
+               fmt::format("tracking {} ms a frame, mapping {} ms a keyframe",
+                           shown(1000 * number("/time/tracking_s") / fed, 1),
+                           shown(1000 * number("/time/mapping_s") / keyframes, 1)));
   html += card("Map", shown(number("/map/gaussians") / 1000, 1) + " k",
-               fmt::format("Gaussians, {} MB; device {} MB at most", shown(number("/map/megabytes"), 1),
-                           shown(number("/memory/device_peak_mb"), 0)));
+               fmt::format("Gaussians, {} MB of memory; device {} MB at most",
+                           shown(number("/map/megabytes"), 1), shown(number("/memory/device_peak_mb"), 0)));
   return "<div class=\"cards\">" + html + "</div>\n";
 }
 

@@ -14,6 +14,7 @@
 #include "engine/viewer/view_painter.h"
 #include "tools/results/run_folder.h"
 #include "tools/shared/command.h"
+#include "tools/shared/load_map.h"
 #include "tools/view/render_path.h"
 
 namespace surefield {
@@ -132,10 +133,10 @@ struct ChosenMap {
 
 /// The map that the user names, else that of the run; a run also tells the depth model.
 ChosenMap choose_map(const RenderOptions& options) {
-  if (options.run.empty()) return {load_finite_map(options.map)};
+  if (options.run.empty()) return {load_map(options.map)};
   const RunFolder run = read_run(options.run);
   const std::string file = options.map.empty() ? run.map_file().string() : options.map;
-  return {load_finite_map(file), settings_of(run).depth_model};
+  return {load_map(file), settings_of(run).depth_model};
 }
 
 void write_pictures(const RenderOptions& options, const Camera& camera, const ChosenMap& map,

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 
-#include "engine/formats/map_file.h"
 #include "engine/types/error.h"
 
 namespace surefield {
@@ -21,15 +20,6 @@ std::vector<ViewMode> chosen_modes(const RenderOptions& options,
     if (asked(info.name) || (asked(kAllModes) && !lack)) modes.push_back(info.mode);
   }
   return modes;
-}
-
-GaussianCloud load_finite_map(const std::string& file) {
-  MapFile map = read_map(file);
-  if (map.dropped > 0) {
-    fmt::print(stderr, "surefield: warning: {}: {} Gaussians are not finite and were left out\n", file,
-               map.dropped);
-  }
-  return std::move(map.cloud);
 }
 
 }  // namespace surefield

@@ -40,7 +40,4 @@ struct RenderOptions {
 std::vector<ViewMode> chosen_modes(const RenderOptions& options,
                                    const std::function<const char*(ViewMode)>& missing);
 
-/// The Gaussians of a file, with a warning where some are left out. Throws InputError.
-GaussianCloud load_finite_map(const std::string& file);
-
 }  // namespace surefield

@@ -16,6 +16,7 @@
 #include "tools/results/run_scene.h"
 #include "tools/shared/command.h"
 #include "tools/shared/interrupt.h"
+#include "tools/shared/load_map.h"
 #include "tools/shared/progress.h"
 
 namespace surefield {
@@ -127,7 +128,8 @@ Journey plan(const RenderOptions& options) {
   journey.lens = lens_of(options, journey.run, recorded ? std::optional(recorded->intrinsics) : std::nullopt);
   if (options.size.width > 0) journey.lens = fit_to(journey.lens, options.size.width, options.size.height);
   if (journey.run && shows_thing(options, kSensor)) need_dataset(*journey.run, "--show sensor");
-  journey.map = load_finite_map(options.map.empty() ? journey.run->run.map_file().string() : options.map);
+  journey.map =
+      load_map(options.map.empty() ? journey.run->run.map_file() : std::filesystem::path(options.map));
   if (recorded) {
     journey.stations = at_rate(recorded->path, options.rate);
   } else if (options.path == kOrbit) {

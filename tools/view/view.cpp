@@ -5,12 +5,12 @@
 #include <filesystem>
 #include <memory>
 
-#include "engine/formats/map_file.h"
 #include "engine/types/error.h"
 #include "engine/window/viewer.h"
 #include "tools/results/run_scene.h"
 #include "tools/shared/command.h"
 #include "tools/shared/interrupt.h"
+#include "tools/shared/load_map.h"
 
 namespace surefield {
 
@@ -74,7 +74,7 @@ int view(const ViewOptions& options) {
   } else {
     input.scene.status = options.what;
   }
-  input.map = read_map(file).cloud;
+  input.map = load_map(file);
   for (const std::string& message : show_viewer(std::move(input)))
     fmt::print(stderr, "surefield: validation: {}\n", message);
   return interrupted() ? kInterrupted : kSuccess;
