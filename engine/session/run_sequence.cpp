@@ -61,6 +61,7 @@ class Listener : public SlamListener {
     });
   }
 
+  bool any_fed() const { return any_fed_; }
   bool is_interrupted() const { return stop_.stop_requested(); }
   /// Whether the thread takes no more frames; asked by the thread that reads.
   bool ended() const { return ended_; }
@@ -169,7 +170,8 @@ SequenceRun run_sequence(FrameSource& source, Slam& slam, const RunObservers& ob
   } catch (...) {
     if (!listener.is_interrupted() || !slam.usable()) run.failure = std::current_exception();
   }
-  listener.tell_unreadable(std::numeric_limits<int>::max());
+  // Of a source that is given up the error says it all.
+  if (!run.failure || listener.any_fed()) listener.tell_unreadable(std::numeric_limits<int>::max());
   run.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   const std::string hopeless = listener.hopeless();
   if (!run.failure && !hopeless.empty() && !stop.stop_requested())

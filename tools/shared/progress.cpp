@@ -13,6 +13,7 @@ namespace surefield {
 
 namespace {
 
+constexpr int kNamedFrames = 5;  // that are skipped; more would push everything else off the screen
 constexpr const char* kClearLine = "\r\x1b[K";
 constexpr int kCountedLines = 100;  // frames to a line where nobody knows how many there will be
 
@@ -63,8 +64,12 @@ void Progress::fed(const Frame&, const Slam&, const FrameReport& report) {
 
 void Progress::skipped(const SkippedFrame& frame) {
   const std::lock_guard lock(mutex_);
-  if (!quiet_)
-    say(stderr, "{}skipped: frame {}: {}\n", terminal_ ? kClearLine : "", frame.index, frame.reason);
+  ++skipped_;
+  const char* before = terminal_ ? kClearLine : "";
+  if (!quiet_ && skipped_ <= kNamedFrames)
+    say(stderr, "{}skipped: frame {}: {}\n", before, frame.index, frame.reason);
+  if (!quiet_ && skipped_ == kNamedFrames + 1)
+    say(stderr, "{}skipped: others too; log.txt names them\n", before);
   advance();
 }
 

@@ -42,6 +42,7 @@ class Progress : public RunObserver {
   bool terminal_;
   int done_ = 0;
   int fed_ = 0;
+  int skipped_ = 0;
   FrameReport last_;
   std::chrono::steady_clock::time_point start_;
   std::chrono::steady_clock::time_point last_end_;  ///< of the last frame that was done
