@@ -10,6 +10,7 @@
 #include <string_view>
 
 #include "engine/config/config_file.h"
+#include "engine/io/text_file.h"
 #include "engine/types/error.h"
 
 namespace surefield {
@@ -144,14 +145,15 @@ void ConfigSchema::load_built_in(const std::string& name, const BuiltInFiles& bu
 void ConfigSchema::apply_all(const std::vector<ConfigValue>& values) const {
   for (const ConfigValue& value : values) {
     const std::string problem = apply(value.key, value.node);
-    if (!problem.empty()) throw InputError(value.file, value.line, problem);
+    if (!problem.empty()) throw InputError(value.file, value.line, printable(problem));
   }
 }
 
 void ConfigSchema::set(const std::string& assignment) {
   const auto equals = assignment.find('=');
   if (equals == std::string::npos || equals == 0) {
-    throw InputError("\"" + assignment + "\": expected key=value, for example mapping_iterations=40");
+    throw InputError("\"" + printable(assignment) +
+                     "\": expected key=value, for example mapping_iterations=40");
   }
   const std::string key = assignment.substr(0, equals);
   const std::string text = assignment.substr(equals + 1);
@@ -164,7 +166,7 @@ void ConfigSchema::set(const std::string& assignment) {
     value = YAML::Node(text);
   }
   const std::string problem = apply(key, value);
-  if (!problem.empty()) throw InputError("\"" + assignment + "\": " + problem);
+  if (!problem.empty()) throw InputError(printable("\"" + assignment + "\": " + problem));
 }
 
 std::string ConfigSchema::dump() const {

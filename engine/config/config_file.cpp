@@ -5,6 +5,7 @@
 #include <set>
 
 #include "engine/io/files.h"
+#include "engine/io/text_file.h"
 #include "engine/types/error.h"
 
 namespace surefield {
@@ -24,8 +25,9 @@ class Flattener {
       const int line = item.first.Mark().line + 1;
       if (!item.first.IsScalar()) throw InputError(file_, line, "a key must be a plain name");
       const std::string key = prefix + item.first.Scalar();
-      if (depth == kDeepestNesting) throw InputError(file_, line, key + " is nested too deeply");
-      if (!seen_.insert(key).second) throw InputError(file_, line, key + " is given twice; remove one");
+      if (depth == kDeepestNesting) throw InputError(file_, line, printable(key) + " is nested too deeply");
+      if (!seen_.insert(key).second)
+        throw InputError(file_, line, printable(key) + " is given twice; remove one");
       if (item.second.IsMap()) {
         flatten(item.second, key + ".", depth + 1);
       } else {
@@ -64,10 +66,11 @@ std::optional<Source> find_built_in(const std::string& name, const BuiltInFiles&
 Source find_base(const Source& from, const ConfigValue& name, const BuiltInFiles& built_in) {
   if (!name.node.IsScalar()) throw InputError(from.file, name.line, "base must be the name of a file");
   const std::filesystem::path on_disk = from.file.parent_path() / name.node.Scalar();
-  if (!from.built_in && std::filesystem::exists(on_disk)) return {on_disk};
+  if (!from.built_in && file_exists(on_disk)) return {on_disk};
   const auto source = find_built_in(name.node.Scalar(), built_in);
   if (!source) {
-    throw InputError(from.file, name.line, "the base file " + on_disk.string() + " does not exist");
+    throw InputError(from.file, name.line,
+                     printable("the base file " + on_disk.string() + " does not exist"));
   }
   return *source;
 }

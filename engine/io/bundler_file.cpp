@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "engine/io/files.h"
-#include "engine/io/text_file.h"
 #include "engine/io/pose_numbers.h"
+#include "engine/io/text_file.h"
 #include "engine/types/error.h"
 
 namespace surefield {

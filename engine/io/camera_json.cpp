@@ -3,8 +3,8 @@
 #include <cmath>
 
 #include "engine/io/files.h"
-#include "engine/io/text_file.h"
 #include "engine/io/images.h"
+#include "engine/io/text_file.h"
 
 namespace surefield {
 

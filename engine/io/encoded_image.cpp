@@ -65,6 +65,15 @@ bool is_png(std::string_view bytes) {
   return bytes.starts_with(kPngSignature);
 }
 
+bool is_image(std::string_view bytes) {
+  using namespace std::string_view_literals;
+  for (const std::string_view signature : {kPngSignature, "\xff\xd8\xff"sv, "II*\0"sv, "MM\0*"sv, "BM"sv})
+    if (bytes.starts_with(signature)) return true;
+  const bool webp = bytes.starts_with("RIFF") && bytes.size() > 12 && bytes.substr(8, 4) == "WEBP";
+  const bool pnm = bytes.size() > 2 && bytes[0] == 'P' && bytes[1] >= '1' && bytes[1] <= '6';
+  return webp || pnm;
+}
+
 std::optional<ImageHeader> read_image_header(std::string_view bytes) {
   if (is_png(bytes)) return read_png_header(bytes);
   if (bytes.starts_with("\xff\xd8")) return read_jpeg_header(bytes);

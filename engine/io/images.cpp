@@ -19,7 +19,7 @@ namespace {
 cv::Mat decode_by_opencv(const std::filesystem::path& file, std::string_view bytes, int flags) {
   cv::Mat image;
   try {
-    if (!bytes.empty()) image = cv::imdecode(std::vector<uchar>(bytes.begin(), bytes.end()), flags);
+    if (is_image(bytes)) image = cv::imdecode(std::vector<uchar>(bytes.begin(), bytes.end()), flags);
   } catch (const cv::Exception&) {
     image.release();
   }
@@ -92,10 +92,10 @@ cv::Mat decode_colour(const std::string& bytes, const std::filesystem::path& nam
 cv::Mat read_depth(const std::filesystem::path& file, const DepthEncoding& encoding, cv::Size expected) {
   const cv::Mat stored = decode(file, read_regular_file(file), cv::IMREAD_UNCHANGED, expected);
   if (stored.type() != CV_16UC1) {
-    throw InputError(file, fmt::format("is no depth image: 16 bits and one channel are needed, it has {} bits "
-                                       "and {} channel{}",
-                                       8 * stored.elemSize1(), stored.channels(),
-                                       stored.channels() == 1 ? "" : "s"));
+    throw InputError(
+        file, fmt::format("is no depth image: 16 bits and one channel are needed, it has {} bits "
+                          "and {} channel{}",
+                          8 * stored.elemSize1(), stored.channels(), stored.channels() == 1 ? "" : "s"));
   }
   return depth_in_metres(stored, encoding);
 }

@@ -22,8 +22,8 @@ struct DepthEncoding {
 };
 
 /// Reads an 8-bit colour image as CV_8UC3, RGB. Throws InputError when the file is missing or damaged,
-/// truncated JPEG files included. `expected`, where it is given, is the size that it must have; of another one nothing
-/// is decoded.
+/// truncated JPEG files included. `expected`, where it is given, is the size that it must have; of another
+/// one nothing is decoded.
 cv::Mat read_colour(const std::filesystem::path& file, cv::Size expected = {});
 
 /// The same from the `bytes` of an image file; `name` is what errors call it.

@@ -127,6 +127,12 @@ bool is_utf8(std::string_view text) {
   return true;
 }
 
+std::string printable(std::string text) {
+  for (char& c : text)
+    if ((c >= 0 && c < ' ') || c == '\x7f') c = ' ';
+  return text;
+}
+
 std::optional<Eigen::Isometry3d> rigid_from_rows(const std::vector<double>& rows) {
   if (rows.size() != 16) return std::nullopt;
   const Eigen::Matrix4d matrix = Eigen::Map<const Eigen::Matrix<double, 4, 4, Eigen::RowMajor>>(rows.data());

@@ -15,21 +15,21 @@ struct TextLine {
   std::string text;
 };
 
-/// The lines of a text file without those that are empty or start with '#', without the blanks around them. Lines
-/// end as on any system, and a byte order mark is passed over. Throws InputError, also where the file is no
-/// UTF-8 text.
+/// The lines of a text file without those that are empty or start with '#', without the blanks around them.
+/// Lines end as on any system, and a byte order mark is passed over. Throws InputError, also where the file
+/// is no UTF-8 text.
 std::vector<TextLine> read_lines(const std::filesystem::path& file);
 
-/// The same without a header row: a first line whose first field begins with a letter, where that of the second
-/// is a number.
+/// The same without a header row: a first line whose first field begins with a letter, where that of the
+/// second is a number.
 std::vector<TextLine> read_rows(const std::filesystem::path& file);
 
-/// The number that `text` is as a whole: decimal, with or without a sign; "nan" and "inf" are numbers. nullopt
-/// where it is anything else.
+/// The number that `text` is as a whole: decimal, with or without a sign; "nan" and "inf" are numbers.
+/// nullopt where it is anything else.
 std::optional<double> parse_number(std::string_view text);
 
-/// The numbers in `text`, separated by blanks, or by commas or semicolons with or without blanks. nullopt where
-/// anything else stands there.
+/// The numbers in `text`, separated by blanks, or by commas or semicolons with or without blanks. nullopt
+/// where anything else stands there.
 std::optional<std::vector<double>> parse_numbers(std::string_view text);
 
 /// The same of a whole file, as of one that holds a matrix. Throws InputError where it cannot be read.
@@ -40,6 +40,9 @@ std::vector<std::string> split_fields(std::string_view text);
 
 /// Whether all of it is UTF-8, without characters that Unicode has not.
 bool is_utf8(std::string_view text);
+
+/// The text as one line that a terminal can show: control characters become blanks.
+std::string printable(std::string text);
 
 /// The rigid transform in 16 numbers, row by row. The rotation is made orthonormal to double precision; a
 /// matrix that holds NaN or infinity stays as it is; nullopt when the matrix is no rigid transform within 1

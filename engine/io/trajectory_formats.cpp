@@ -10,9 +10,9 @@
 
 #include "engine/io/bundler_file.h"
 #include "engine/io/files.h"
-#include "engine/io/text_file.h"
 #include "engine/io/number_table.h"
 #include "engine/io/pose_numbers.h"
+#include "engine/io/text_file.h"
 #include "engine/io/transforms_file.h"
 #include "engine/types/error.h"
 

@@ -8,8 +8,8 @@
 
 #include "engine/io/camera_json.h"
 #include "engine/io/files.h"
-#include "engine/io/text_file.h"
 #include "engine/io/pose_numbers.h"
+#include "engine/io/text_file.h"
 
 namespace surefield {
 
