@@ -80,7 +80,7 @@ YAML::Node parse(const Source& source) {
   try {
     root = YAML::Load(source.built_in ? *source.built_in : read_file(source.file));
   } catch (const YAML::Exception& error) {
-    throw InputError(source.file, error.mark.line + 1, "is not valid YAML: " + error.msg);
+    throw InputError(source.file, error.mark.line + 1, "is not valid YAML: " + printable(error.msg));
   }
   if (!root.IsMap() && !root.IsNull()) throw InputError(source.file, "must hold \"key: value\" lines");
   return root;
