@@ -246,7 +246,7 @@ esac
   CHECK(read_file(folder / "calls.txt") == calls);
   ablate("--scale 0.3 --frames 9 --seeds 1");
   CHECK(contains(read_file(folder / "calls.txt"),
-                 "/office/full/seed1 --overwrite --scale --set seed=1 --frames 9\n"));
+                 "/office/full/seed1 --overwrite --scale 0.3 --set seed=1 --frames 9\n"));
 }
 
 TEST_CASE("ablations mark what lies within the spread, and name what is beyond") {
