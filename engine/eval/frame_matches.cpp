@@ -13,15 +13,15 @@ namespace surefield {
 
 namespace {
 
-constexpr double kMatchWidth = 480;         // pixels; finer images take longer and match no better
-constexpr int kStarts = 18;                 // first frames, spread over the recording
-constexpr int kMostFeatures = 500;          // per frame
-constexpr double kContrast = 0.02;          // of features; below OpenCV's 0.04: plain rooms have few
-constexpr float kDistinct = 0.8f;           // the second-best match must be that much worse
+constexpr double kMatchWidth = 480;        // pixels; finer images take longer and match no better
+constexpr int kStarts = 18;                // first frames, spread over the recording
+constexpr int kMostFeatures = 500;         // per frame
+constexpr double kContrast = 0.02;         // of features; below OpenCV's 0.04: plain rooms have few
+constexpr float kDistinct = 0.8f;          // the second-best match must be that much worse
 constexpr std::size_t kFewestShared = 40;  // that make a pair
-constexpr double kEpipolar = 1.5;           // pixels from the epipolar line
-constexpr float kSmooth = 1.06f;            // depths about a point differ by less than this factor
-constexpr int kAhead[] = {60, 30, 15, 8};   // frames to the second of a pair, tried in turn
+constexpr double kEpipolar = 1.5;          // pixels from the epipolar line
+constexpr float kSmooth = 1.06f;           // depths about a point differ by less than this factor
+constexpr int kAhead[] = {60, 30, 15, 8};  // frames to the second of a pair, tried in turn
 
 /// A frame's features that have depth.
 struct Features {

@@ -9,8 +9,8 @@ class FolderLock {
  public:
   static constexpr const char* kName = ".lock";
 
-  /// Takes the lock of a folder that exists. Throws InputError where another process has it, or where the folder cannot
-  /// be written to. A file system without locks keeps nobody out.
+  /// Takes the lock of a folder that exists. Throws InputError where another process has it, or where the
+  /// folder cannot be written to. A file system without locks keeps nobody out.
   explicit FolderLock(const std::filesystem::path& folder);
   ~FolderLock();
   FolderLock(const FolderLock&) = delete;

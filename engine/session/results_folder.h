@@ -16,15 +16,15 @@ namespace surefield {
 class FolderLock;
 class LogFile;
 
-/// The folder of a run's results with its log, log.txt. Until publish() everything is written into a folder beside it,
-/// `folder`.partial (or `folder`/partial, where nothing can be made beside it), which other processes are kept out of;
-/// then the two are swapped, so that the folder holds the whole of one run at any time, and an earlier run stays until
-/// there is another. One thread at a time, but for the log.
+/// The folder of a run's results with its log, log.txt. Until publish() everything is written into a folder
+/// beside it, `folder`.partial (or `folder`/partial, where nothing can be made beside it), which other
+/// processes are kept out of; then the two are swapped, so that the folder holds the whole of one run at any
+/// time, and an earlier run stays until there is another. One thread at a time, but for the log.
 class ResultsFolder {
  public:
-  /// Throws InputError where it cannot be written to, where another run is writing there, and unless `overwrite` where it
-  /// holds anything: an earlier run, what a run that was killed has left, or files of somebody else, which are kept
-  /// in any case.
+  /// Throws InputError where it cannot be written to, where another run is writing there, and unless
+  /// `overwrite` where it holds anything: an earlier run, what a run that was killed has left, or files of
+  /// somebody else, which are kept in any case.
   explicit ResultsFolder(const std::filesystem::path& folder, bool overwrite = false);
   /// What was not published stays in the folder beside, unless no file was saved.
   ~ResultsFolder();
@@ -32,7 +32,8 @@ class ResultsFolder {
   ResultsFolder& operator=(const ResultsFolder&) = delete;
 
   /// Has `write` write one file, which is named as it is in the folder; a failure is logged and kept in
-  /// problems(), so that the other files are written all the same. The folder is made again if it has vanished.
+  /// problems(), so that the other files are written all the same. The folder is made again if it has
+  /// vanished.
   template <typename Write>
   void save(const std::string& name, Write write) {
     try {
@@ -49,8 +50,8 @@ class ResultsFolder {
   /// Removes what is there: nothing was computed. For a program that ends at once, whatever other threads do.
   void discard();
 
-  /// Puts what was saved into the place of the results, after the disk has it; does nothing where something could not
-  /// be saved. Returns whether it is there.
+  /// Puts what was saved into the place of the results, after the disk has it; does nothing where something
+  /// could not be saved. Returns whether it is there.
   bool publish();
 
   spdlog::logger& log() { return *log_; }

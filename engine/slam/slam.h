@@ -27,8 +27,9 @@ struct Frame;
 /// SlamThread (slam_thread.h) feeds without waiting for the map.
 ///
 /// Threads: every method may be called from any thread. feed(), finish(), change() and on_revision() take
-/// turns; stop_mapping() does not wait. All others only read; they wait for a frame in work and are let in, in the order in which they ask,
-/// between frames and while feed() or finish() runs a function of the caller. What is returned is a copy.
+/// turns; stop_mapping() does not wait. All others only read; they wait for a frame in work and are let in,
+/// in the order in which they ask, between frames and while feed() or finish() runs a function of the caller.
+/// What is returned is a copy.
 ///
 /// Errors: what derives from Error (engine/types/error.h), or std::bad_alloc. Where feed() or finish() throws
 /// before mapping has begun, nothing has changed: the frame was not fed, and the next may be. Where mapping
@@ -66,8 +67,8 @@ class Slam {
   /// after it; calling it again does nothing.
   void finish();
 
-  /// From now on mapping steps that remain are left out, those of a frame in work too, so that it ends soon: for a run
-  /// that has to end. Poses and map are what they are then. Waits for nothing.
+  /// From now on mapping steps that remain are left out, those of a frame in work too, so that it ends soon:
+  /// for a run that has to end. Poses and map are what they are then. Waits for nothing.
   void stop_mapping();
 
   /// Whether frames may be fed: until finish(), or an error in the middle of mapping.

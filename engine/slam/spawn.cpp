@@ -75,7 +75,8 @@ double scene_extent(const Frame& frame, double depth_max) {
   if (farthest == 0) throw InputError("the first frame has no valid depth: all of its depth image is 0");
   if (depths.empty()) {
     throw InputError(fmt::format(
-        "the first frame has no depth up to depth_max, {:g} m: it was read as {:.3g} to {:.3g} m; is depth_unit, the "
+        "the first frame has no depth up to depth_max, {:g} m: it was read as {:.3g} to {:.3g} m; is "
+        "depth_unit, the "
         "metres for one step of the depth images, right, and is depth_max what the sensor reaches?",
         depth_max, nearest, farthest));
   }

@@ -63,8 +63,8 @@ class SplatEngine {
                        std::span<const TrackingReference> references = {});
 
   /// Optimises the map over views[order[0]], views[order[1]], ..., one step each, and the poses of the views
-  /// that ask for it. `extent` (metres) scales the rates of means and scales. Where `stop` is asked for, the steps that
-  /// remain are left out.
+  /// that ask for it. `extent` (metres) scales the rates of means and scales. Where `stop` is asked for, the
+  /// steps that remain are left out.
   MappingResult optimise(std::span<MappingView> views, std::span<const int> order,
                          const MappingSettings& settings, double extent, const std::stop_token& stop = {});
 

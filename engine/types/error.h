@@ -30,8 +30,8 @@ class InputError : public Error {
       : Error(file.string() + ":" + std::to_string(line) + ": " + problem) {}
 };
 
-/// A frame whose image cannot be used, though it is read without fault: one that shows nothing, or not yet the
-/// light that the camera will see by. The next one may do.
+/// A frame whose image cannot be used, though it is read without fault: one that shows nothing, or not yet
+/// the light that the camera will see by. The next one may do.
 class NoImageError : public InputError {
  public:
   using InputError::InputError;

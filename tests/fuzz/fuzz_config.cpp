@@ -11,7 +11,8 @@ void read(const std::filesystem::path& file) {
   settings.bind(schema);
   schema.load_file(file);
   const std::string dumped = schema.dump();
-  const auto again = surefield::fuzz::write_input("dumped.yaml", reinterpret_cast<const uint8_t*>(dumped.data()), dumped.size());
+  const auto again = surefield::fuzz::write_input(
+      "dumped.yaml", reinterpret_cast<const uint8_t*>(dumped.data()), dumped.size());
   schema.load_file(again);
   if (schema.dump() != dumped) __builtin_trap();
 }

@@ -13,8 +13,8 @@ const std::filesystem::path& folder();
 /// Writes an input where a reader can open it by this name.
 std::filesystem::path write_input(const std::string& name, const uint8_t* data, std::size_t size);
 
-/// Does `read` and takes every Error as an answer; any other exception, and a message of more than one line, is a fault
-/// and ends the program.
+/// Does `read` and takes every Error as an answer; any other exception, and a message of more than one line,
+/// is a fault and ends the program.
 template <typename Read>
 void expect_answer(Read read);
 
@@ -36,9 +36,9 @@ void expect_answer(Read read) {
 }  // namespace surefield::fuzz
 
 /// A harness over a reader of files: `read` is a function of the path of the input, which is named `name`.
-#define SUREFIELD_FUZZ_FILE(name, read)                                           \
-  extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, std::size_t size) {  \
-    const auto file = surefield::fuzz::write_input(name, data, size);             \
-    surefield::fuzz::expect_answer([&] { read(file); });                          \
-    return 0;                                                                     \
+#define SUREFIELD_FUZZ_FILE(name, read)                                          \
+  extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, std::size_t size) { \
+    const auto file = surefield::fuzz::write_input(name, data, size);            \
+    surefield::fuzz::expect_answer([&] { read(file); });                         \
+    return 0;                                                                    \
   }

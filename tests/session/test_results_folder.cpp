@@ -18,7 +18,8 @@ using test::TemporaryFolder;
 namespace {
 
 void write(ResultsFolder& results, const std::string& name, const std::string& content) {
-  results.save(name, [&](const auto& file) { write_file(file, [&](std::ostream& stream) { stream << content; }); });
+  results.save(name,
+               [&](const auto& file) { write_file(file, [&](std::ostream& stream) { stream << content; }); });
 }
 
 /// Publishes a run whose trajectory is `content`.
@@ -103,7 +104,8 @@ TEST_CASE("somebody else's files are told from a run's, and stay") {
   CHECK(read_file(folder / "run/sub/picture.png") == "mine too");
   CHECK(read_file(folder / "run/trajectory.txt") == "second");
   CHECK_FALSE(file_exists(folder / "run.partial"));
-  CHECK(contains(input_error([&] { ResultsFolder file(folder.write("file", "")); }), "file: is a file; give a folder"));
+  CHECK(contains(input_error([&] { ResultsFolder file(folder.write("file", "")); }),
+                 "file: is a file; give a folder"));
 }
 
 TEST_CASE("a second run is kept out as long as the first one lives") {
@@ -113,7 +115,8 @@ TEST_CASE("a second run is kept out as long as the first one lives") {
     CHECK(is_locked(folder / "run.partial"));
     const std::string refusal = input_error([&] { ResultsFolder second(folder / "run"); });
     CHECK(contains(refusal, "another run is writing there"));
-    CHECK(contains(input_error([&] { ResultsFolder second(folder / "run", true); }), "another run is writing there"));
+    CHECK(contains(input_error([&] { ResultsFolder second(folder / "run", true); }),
+                   "another run is writing there"));
     CHECK(is_locked(folder / "run.partial"));
   }
   CHECK_FALSE(is_locked(folder / "run.partial"));
@@ -162,7 +165,9 @@ TEST_CASE("each run has an id of its own, which its log begins with") {
 }
 
 TEST_CASE("names of results are told from others") {
-  for (const char* name : {"trajectory.txt", "map.ply", "map.spz", "metrics.json", "metrics.json.part", "log.txt"})
+  for (const char* name :
+       {"trajectory.txt", "map.ply", "map.spz", "metrics.json", "metrics.json.part", "log.txt"})
     CHECK(is_result_name(name));
-  for (const char* name : {"notes.txt", "map.glb", "trajectory.txt.bak", ".part", ""}) CHECK_FALSE(is_result_name(name));
+  for (const char* name : {"notes.txt", "map.glb", "trajectory.txt.bak", ".part", ""})
+    CHECK_FALSE(is_result_name(name));
 }

@@ -78,8 +78,7 @@ struct Outcome {
 
 Outcome run(FrameSource& source, Watcher& watcher) {
   Slam slam(quick_settings(), source.intrinsics(), engine_options());
-  Outcome outcome{run_sequence(source, slam, {&watcher}, watcher.stop.get_token()),
-                  slam.trajectory()};
+  Outcome outcome{run_sequence(source, slam, {&watcher}, watcher.stop.get_token()), slam.trajectory()};
   outcome.finished = !slam.usable();
   return outcome;
 }
@@ -173,7 +172,8 @@ TEST_CASE("a run whose first frames cannot be used is given up, and says why onc
   const Outcome outcome = run(source, watcher);
   CHECK(outcome.run.end == RunEnd::Failed);
   REQUIRE(outcome.run.failure);
-  CHECK(contains(describe(outcome.run.failure), "none of the 5 frames so far can be used: the frame's images"));
+  CHECK(
+      contains(describe(outcome.run.failure), "none of the 5 frames so far can be used: the frame's images"));
   CHECK(watcher.told.empty());
 
   DamagedOffice late;

@@ -72,10 +72,12 @@ TEST_CASE("a folder that is missing, empty, of another layout or of an unknown f
   const TemporaryFolder folder;
   CHECK(contains(input_error([&] { open_dataset(folder / "nowhere"); }), "nowhere: there is no such folder"));
   const std::string message = open_error(folder);
-  for (const char* part : {"no known dataset layout here", "rgb.txt", "results/frame", "frame-000000.color"}) {
+  for (const char* part :
+       {"no known dataset layout here", "rgb.txt", "results/frame", "frame-000000.color"}) {
     CHECK(contains(message, part));
   }
-  CHECK(contains(open_error(folder, "tum"), "is no sequence of format tum (tum has rgb.txt and depth.txt, or associations.txt)"));
+  CHECK(contains(open_error(folder, "tum"),
+                 "is no sequence of format tum (tum has rgb.txt and depth.txt, or associations.txt)"));
   CHECK(contains(open_error(folder, "kitti"),
                  "\"kitti\"; use one of auto, tum, replica, sevenscenes, scannet, icl, plain"));
 }

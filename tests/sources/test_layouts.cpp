@@ -191,7 +191,8 @@ TEST_CASE("plain: timestamps.txt gives stamps and pairs, color/ is accepted") {
   CHECK(!dataset.ground_truth);
   folder.write("timestamps.txt", "10.5 b.jpg a.png\n10.4 a.jpg b.png\n");
   CHECK(open_dataset(folder.path()).recording->timestamp(0) == 10.4);
-  CHECK(contains(open_dataset(folder.path()).recording->warnings().front(), "timestamps.txt:2: the time goes back"));
+  CHECK(contains(open_dataset(folder.path()).recording->warnings().front(),
+                 "timestamps.txt:2: the time goes back"));
   folder.write("timestamps.txt", "10.5 b.jpg\n");
   CHECK(contains(open_error(folder), "timestamps.txt:1: expected"));
 }
@@ -217,7 +218,8 @@ TEST_CASE("a folder that fits two layouts is not guessed at") {
   folder.write("rgb.txt", "1.0 colour/a.jpg\n");
   folder.write("depth.txt", "1.0 depth/a.png\n");
   const std::string message = open_error(folder);
-  CHECK(contains(message, "could be of two layouts, tum (rgb.txt and depth.txt, or associations.txt) and plain"));
+  CHECK(contains(message,
+                 "could be of two layouts, tum (rgb.txt and depth.txt, or associations.txt) and plain"));
   CHECK(contains(message, "--format"));
   CHECK(open_dataset(folder.path(), {.format = "plain"}).recording->count() == 2);
   CHECK(open_dataset(folder.path(), {.format = "tum"}).recording->count() == 1);

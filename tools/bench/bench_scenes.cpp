@@ -8,8 +8,8 @@
 #include <random>
 
 #include "engine/io/camera_json.h"
-#include "engine/io/text_file.h"
 #include "engine/io/json_file.h"
+#include "engine/io/text_file.h"
 #include "engine/synth/camera_path.h"
 #include "engine/synth/scene_renderer.h"
 #include "engine/types/error.h"

@@ -22,7 +22,8 @@ constexpr int kPatience = 1500;  // milliseconds in which the program may stop b
 
 std::atomic<int> signals{0};
 static_assert(std::atomic<int>::is_always_lock_free);
-std::array<int, 2> wake_up{-1, -1};  // a pipe from the handler, which may do next to nothing, to the watching thread
+std::array<int, 2> wake_up{
+    -1, -1};  // a pipe from the handler, which may do next to nothing, to the watching thread
 
 std::stop_source stop;
 std::mutex ending;  ///< guards what follows
@@ -49,7 +50,8 @@ void watch() {
   char byte;
   while (read(wake_up[0], &byte, 1) != 1) {
   }
-  tell(has_something_to_lose() ? "\nStopping; everything so far will be saved (again: quit at once)\n" : "\nStopping\n");
+  tell(has_something_to_lose() ? "\nStopping; everything so far will be saved (again: quit at once)\n"
+                               : "\nStopping\n");
   stop.request_stop();
   poll(nullptr, 0, kPatience);
   const std::lock_guard lock(ending);

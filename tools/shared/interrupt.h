@@ -5,9 +5,9 @@
 
 namespace surefield {
 
-/// From now on the first Ctrl-C (SIGINT), SIGTERM or SIGHUP (unless that is ignored, as under nohup) asks the program to
-/// stop, and the second ends it at once with exit code 130. Where it has not stopped by itself within two seconds,
-/// because it waits for something, it is ended too, unless keep_until_saved() was called.
+/// From now on the first Ctrl-C (SIGINT), SIGTERM or SIGHUP (unless that is ignored, as under nohup) asks the
+/// program to stop, and the second ends it at once with exit code 130. Where it has not stopped by itself
+/// within two seconds, because it waits for something, it is ended too, unless keep_until_saved() was called.
 void catch_interrupts();
 
 /// Does what a first Ctrl-C does.
@@ -19,8 +19,8 @@ bool interrupted();
 /// The same as a token; its callbacks run on a thread of their own.
 std::stop_token interruption();
 
-/// What is to be done where the program is ended while it waits; nothing from keep_until_saved() on. Called by the
-/// thread that watches for signals, with no other running any more that could be relied on.
+/// What is to be done where the program is ended while it waits; nothing from keep_until_saved() on. Called
+/// by the thread that watches for signals, with no other running any more that could be relied on.
 void clean_up_when_ended(std::function<void()> clean_up);
 
 /// There is something to lose: one signal lets the program take its time to save it.

@@ -8,8 +8,9 @@
 
 namespace surefield {
 
-/// Writes text to stdout or stderr. Where nobody reads it any more the user wants no more of the program: that does what
-/// a first Ctrl-C does, and nothing is thrown. For `surefield run`, which has something to save.
+/// Writes text to stdout or stderr. Where nobody reads it any more the user wants no more of the program:
+/// that does what a first Ctrl-C does, and nothing is thrown. For `surefield run`, which has something to
+/// save.
 void say_text(std::FILE* to, const std::string& text);
 
 /// The same, with the text as of fmt::format().
