@@ -122,17 +122,16 @@ ResultsFolder::ResultsFolder(const std::filesystem::path& folder, bool overwrite
   if (!folder_.has_filename()) folder_ = folder_.parent_path();
   if (!overwrite) require_free(folder_);
   path_ = folder_.string() + "." + kPartial;
-  const bool was_there = folder_exists(path_);
-  std::filesystem::create_directories(path_, error);
+  bool made = std::filesystem::create_directories(path_, error);
   if (error && folder_exists(folder_)) {
     path_ = folder_ / kPartial;
-    std::filesystem::create_directories(path_, error);
+    made = std::filesystem::create_directories(path_, error);
   }
   if (error) throw InputError(folder, "cannot be created: " + error.message());
   lock_ = std::make_unique<FolderLock>(path_);
   // Whoever had the lock may have put its results there meanwhile.
   if (!overwrite) require_free(folder_);
-  if (was_there && !overwrite) require_no_leftover(path_);
+  if (!made && !overwrite) require_no_leftover(path_);
   for (const std::string& name : names_in(path_))
     if (name != FolderLock::kName && is_result_name(name)) std::filesystem::remove(path_ / name, error);
   log_file_ = std::make_shared<LogFile>(path_ / "log.txt");

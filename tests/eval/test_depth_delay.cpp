@@ -126,6 +126,10 @@ TEST_CASE(
         estimate_depth_delay(PartOf(*dataset.recording, cut.start, cut.count, cut.scale));
     // Where it is far off, the error says so.
     CHECK(std::abs(delay.value + 0.0205) < std::max(0.003, 3.5 * delay.error));
-    if (cut.count >= 50 && cut.scale == 1) CHECK(delay.error < 0.004);
+    if (cut.count < 50 || cut.scale < 1) continue;
+    CHECK(std::abs(delay.value + 0.0205) < 0.0015);
+    // From frame 50 on the camera moves one way for long, which a shift of the depth images explains nearly
+    // as well.
+    CHECK(delay.error < (cut.start == 50 ? 0.004 : 0.003));
   }
 }
