@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "engine/synth/random.h"
@@ -34,6 +35,8 @@ constexpr PathStyle kStyles[] = {
     {"handheld", 0.45, 0.08, 55 * kDegree, 0.15, 1, false, 0},
     {"fast", 0.98, 0.12, 115 * kDegree, 0.2, 1.6, false, 0},
     {"loop", 0.45, 0.08, 55 * kDegree, 0.0, 1, false, 0},
+    // 370 degrees in 250 frames.
+    {"turn", 0.387, 0, 60 * kDegree, 0.0, 1, false, 0, 0.5},
 };
 
 /// A uniform cubic B-spline through the neighbourhood of its points, at `u` from point 1 on.
@@ -140,6 +143,17 @@ double tremble(double seconds, uint32_t seed, uint32_t channel) {
   return sum / 1.84;
 }
 
+/// How near anything comes to a level circle, metres.
+double clearance_of_circle(const Scene& scene, const Vector3d& centre, double radius) {
+  double nearest = std::numeric_limits<double>::infinity();
+  for (int i = 0; i < 16; ++i) {
+    const double angle = i * std::numbers::pi / 8;
+    const Vector3d out(std::cos(angle), std::sin(angle), 0);
+    nearest = std::min(nearest, scene.clearance(centre + radius * out));
+  }
+  return nearest;
+}
+
 }  // namespace
 
 std::vector<std::string> path_names() {
@@ -160,7 +174,10 @@ CameraPath::CameraPath(const Scene& scene, const PathStyle& style, uint32_t seed
   for (int attempt = 0; attempt < kAttempts; ++attempt) {
     const double jitter = style.jitter * (1 - static_cast<double>(attempt) / (kAttempts - 1));
     samples_.clear();
-    walk(scene, style, jitter, count);
+    if (style.circle > 0)
+      turn_round(scene, style, count);
+    else
+      walk(scene, style, jitter, count);
     if (!is_clear(scene)) continue;
     limit_turns(style);
     return;
@@ -192,6 +209,23 @@ void CameraPath::walk(const Scene& scene, const PathStyle& style, double jitter,
     if (u < static_cast<double>(stops_around)) lap_seconds_ = seconds;
     metres += (style.speed + style.speed_swing * tremble(0.2 * seconds, seed_, 9)) / kRate;
   }
+}
+
+void CameraPath::turn_round(const Scene& scene, const PathStyle& style, std::size_t count) {
+  Vector3d centre = scene.circuit.front().position;
+  double most_room = 0;
+  for (const Waypoint& stop : scene.circuit) {
+    const double room = clearance_of_circle(scene, stop.position, style.circle);
+    if (room > most_room) centre = stop.position;
+    most_room = std::max(most_room, room);
+  }
+  const double start = 2 * std::numbers::pi * unit_interval(hash_key(seed_, 2));
+  for (std::size_t i = 0; i < count; ++i) {
+    const double seconds = static_cast<double>(i) / kRate - kMargin;
+    const double yaw = start + style.speed / style.circle * seconds;
+    samples_.push_back({centre + style.circle * Vector3d(std::cos(yaw), std::sin(yaw), 0), yaw, kPitchAhead});
+  }
+  lap_seconds_ = 2 * std::numbers::pi * style.circle / style.speed;
 }
 
 bool CameraPath::is_clear(const Scene& scene) const {

@@ -19,17 +19,20 @@ struct PathStyle {
   double shake;        ///< 1: as a hand shakes
   bool look_ahead;     ///< level and along the way, as a robot does; else at what the circuit names
   double height;       ///< of the camera above the floor where it looks ahead, metres
+  double circle =
+      0;  ///< metres; not 0: it does not follow the circuit, but turns round on a circle of this radius
 };
 
-/// The path styles by name: robot, handheld, fast, loop.
+/// The path styles by name: robot, handheld, fast, loop, turn.
 std::vector<std::string> path_names();
 
 /// The style of that name. Throws InputError for an unknown one.
 const PathStyle& path_style(const std::string& name);
 
 /// A smooth walk through a scene along its circuit: positions on a cubic B-spline run through at a smoothly
-/// varying speed, viewing directions filtered until they turn within the limit. Nothing is nearer than 0.25 m
-/// to it. The same on every run.
+/// varying speed, viewing directions filtered until they turn within the limit. Or a turn on the spot,
+/// looking outwards, where the circuit has most room. Nothing is nearer than 0.25 m to it. The same on every
+/// run.
 class CameraPath {
  public:
   /// A walk of `seconds`. Throws InputError where the scene has no room for it.
@@ -47,6 +50,7 @@ class CameraPath {
     double yaw, pitch;
   };
   void walk(const Scene& scene, const PathStyle& style, double jitter, std::size_t count);
+  void turn_round(const Scene& scene, const PathStyle& style, std::size_t count);
   bool is_clear(const Scene& scene) const;
   void limit_turns(const PathStyle& style);
 

@@ -55,18 +55,21 @@ glsl::CastPose to_device(const Pose& world_to_camera) {
           vec(to_world.linear().col(2))};
 }
 
-/// How far the colour poses are from the depth pose.
+/// How far the poses are from the first one of depth.
 struct Motion {
   double metres = 0, radians = 0;
 };
 
 Motion motion_of(const Exposure& exposure) {
   Motion motion;
-  const Vector3d centre = exposure.depth_pose.inverse().translation();
-  for (const Pose& pose : exposure.colour_poses) {
-    motion.metres = std::max(motion.metres, (pose.inverse().translation() - centre).norm());
-    const Eigen::Matrix3d turn = pose.linear() * exposure.depth_pose.linear().transpose();
-    motion.radians = std::max(motion.radians, Eigen::AngleAxisd(turn).angle());
+  const Pose& first = exposure.depth_poses.front();
+  const Vector3d centre = first.inverse().translation();
+  for (const auto* poses : {&exposure.depth_poses, &exposure.colour_poses}) {
+    for (const Pose& pose : *poses) {
+      motion.metres = std::max(motion.metres, (pose.inverse().translation() - centre).norm());
+      const Eigen::Matrix3d turn = pose.linear() * first.linear().transpose();
+      motion.radians = std::max(motion.radians, Eigen::AngleAxisd(turn).angle());
+    }
   }
   return motion;
 }
@@ -144,7 +147,7 @@ void SceneRenderer::place_visitor(double seconds) const {
 SceneImages SceneRenderer::render(const Camera& camera) const {
   Exposure exposure;
   exposure.intrinsics = camera.intrinsics;
-  exposure.depth_pose = camera.world_to_camera;
+  exposure.depth_poses = {camera.world_to_camera};
   exposure.colour_poses = {camera.world_to_camera};
   return render(exposure);
 }
@@ -153,8 +156,9 @@ SceneImages SceneRenderer::render(const Exposure& exposure) const {
   const Intrinsics& k = exposure.intrinsics;
   const auto width = static_cast<uint32_t>(k.width), height = static_cast<uint32_t>(k.height);
   const Motion motion = motion_of(exposure);
-  std::vector<glsl::CastPose> poses = {surefield::to_device(exposure.depth_pose)};
-  for (const Pose& pose : exposure.colour_poses) poses.push_back(surefield::to_device(pose));
+  std::vector<glsl::CastPose> poses;
+  for (const auto* of_image : {&exposure.depth_poses, &exposure.colour_poses})
+    for (const Pose& pose : *of_image) poses.push_back(surefield::to_device(pose));
 
   const std::lock_guard lock(mutex_);
   place_visitor(exposure.visitor_seconds);
@@ -187,6 +191,7 @@ SceneImages SceneRenderer::render(const Exposure& exposure) const {
                      .first_moving = still_shapes_,
                      .lights = lights_count_,
                      .samples = static_cast<uint32_t>(exposure.samples),
+                     .depth_poses = static_cast<uint32_t>(exposure.depth_poses.size()),
                      .colour_poses = static_cast<uint32_t>(exposure.colour_poses.size()),
                      .readout = static_cast<float>(exposure.readout),
                      .exposure = static_cast<float>(exposure.exposure),

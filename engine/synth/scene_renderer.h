@@ -13,10 +13,11 @@
 
 namespace surefield {
 
-/// A camera that may move while it takes its colour image. Depth is taken in no time at `depth_pose`.
+/// A camera that may move while it takes its images.
 struct Exposure {
   Intrinsics intrinsics;
-  Pose depth_pose = Pose::Identity();  ///< world to camera
+  std::vector<Pose> depth_poses{Pose::Identity()};  ///< world to camera, evenly spaced in time from the first
+                                                    ///< row to the last; one: all rows at once
   std::vector<Pose>
       colour_poses;     ///< evenly spaced in time from the first row's opening to the last's closing
   double readout = 0;   ///< from row to row in all, as part of that time

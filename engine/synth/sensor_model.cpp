@@ -13,6 +13,9 @@ using Eigen::Vector3d;
 
 namespace {
 
+constexpr double kJump = 0.35;              // of the light
+constexpr double kFadeSeconds = 12.0 / 30;  // until the light is all there
+
 constexpr uint32_t kDepthStream = 1u << 28, kColourStream = 2u << 28, kDriftStream = 3u << 28;
 
 /// A normal variate of its own for each key (Box and Muller).
@@ -76,7 +79,17 @@ void KinectModel::add_colour_noise(cv::Mat& colour, int frame) const {
 
 double KinectModel::brightness(double seconds) const {
   const double start = unit_interval(hash_key(seed, kDriftStream));
-  return 1 + exposure_drift * std::sin(2 * std::numbers::pi * (seconds / drift_period + start));
+  const double drifting =
+      1 + exposure_drift * std::sin(2 * std::numbers::pi * (seconds / drift_period + start));
+  switch (course) {
+    case ExposureCourse::Drift:
+      return drifting;
+    case ExposureCourse::Jump:
+      return drifting * (seconds < jump_seconds ? 1 : kJump);
+    case ExposureCourse::FadeIn:
+      return drifting * std::clamp(seconds / kFadeSeconds, 0.0, 1.0);
+  }
+  return drifting;
 }
 
 }  // namespace surefield

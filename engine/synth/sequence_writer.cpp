@@ -49,6 +49,18 @@ void create_folder(const fs::path& folder) {
   if (error) throw InputError(folder, "cannot be created: " + error.message());
 }
 
+const char* name_of(ExposureCourse course) {
+  switch (course) {
+    case ExposureCourse::Jump:
+      return "jump";
+    case ExposureCourse::FadeIn:
+      return "fade-in";
+    case ExposureCourse::Drift:
+      break;
+  }
+  return "drift";
+}
+
 std::string stamped(const char* folder, double stamp) {
   return fmt::format("{}/{:.6f}.png", folder, stamp);
 }
@@ -87,6 +99,10 @@ void SequenceWriter::write_settings(bool complete) const {
                                {"sensor", s.sensor == SensorKind::Kinect ? "kinect" : "perfect"},
                                {"layout", layout_ == SequenceLayout::Tum ? "tum" : "replica"},
                                {"moving_object", s.moving_object},
+                               {"range_m", s.kinect.furthest},
+                               {"colour_delay_s", s.kinect.colour_delay},
+                               {"depth_readout_s", s.kinect.depth_readout_seconds},
+                               {"exposure", name_of(s.kinect.course)},
                                {"complete", complete}};
   write_file(folder_ / kSettingsFile, [&](std::ostream& stream) { stream << json.dump(2) << "\n"; });
 }

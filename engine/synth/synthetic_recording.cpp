@@ -11,6 +11,7 @@ namespace {
 
 constexpr double kFrameRate = 30;
 constexpr int kColourPoses = 9;     // in which the way of the camera during one colour image is cut
+constexpr int kDepthPoses = 5;      // and during one depth image that is not taken at once
 constexpr int kBlurredSamples = 8;  // of colour, a pixel
 
 const SynthSettings& checked(const SynthSettings& settings) {
@@ -24,11 +25,13 @@ const SynthSettings& checked(const SynthSettings& settings) {
 
 SyntheticRecording::SyntheticRecording(const gpu::DeviceOptions& device, const SynthSettings& settings)
     : settings_(checked(settings)),
+      kinect_(settings.kinect),
       scene_(make_scene(settings.scene, settings.seed)),
       path_(scene_, path_style(settings.path), settings.seed, settings.frames / kFrameRate),
       device_(std::make_unique<gpu::Device>(device)),
       renderer_(*device_, scene_, settings.moving_object) {
   kinect_.seed = settings.seed;
+  kinect_.jump_seconds = timestamp(settings.frames / 2);
   for (int i = 0; i < count(); ++i) {
     ground_truth_.push_back({timestamp(i), path_.world_to_camera(timestamp(i)).inverse()});
   }
@@ -48,20 +51,29 @@ double SyntheticRecording::colour_timestamp(int i) const {
   return timestamp(i) + (settings_.sensor == SensorKind::Kinect ? kinect_.colour_delay : 0);
 }
 
+/// So many poses, evenly spaced over a time, with `middle` in its middle.
+std::vector<Pose> SyntheticRecording::poses_around(double middle, double span, int count) const {
+  std::vector<Pose> poses;
+  for (int k = 0; k < count; ++k) {
+    const double part = static_cast<double>(k) / (count - 1) - 0.5;
+    poses.push_back(path_.world_to_camera(middle + span * part));
+  }
+  return poses;
+}
+
 Exposure SyntheticRecording::exposure_of(int i) const {
   Exposure exposure;
   exposure.intrinsics = intrinsics();
-  exposure.depth_pose = path_.world_to_camera(timestamp(i));
+  exposure.depth_poses = {path_.world_to_camera(timestamp(i))};
   exposure.visitor_seconds = timestamp(i);
   if (settings_.sensor == SensorKind::Perfect) {
-    exposure.colour_poses = {exposure.depth_pose};
+    exposure.colour_poses = exposure.depth_poses;
     return exposure;
   }
+  if (kinect_.depth_readout_seconds > 0)
+    exposure.depth_poses = poses_around(timestamp(i), kinect_.depth_readout_seconds, kDepthPoses);
   const double span = kinect_.readout_seconds + kinect_.exposure_seconds;
-  for (int k = 0; k < kColourPoses; ++k) {
-    const double part = static_cast<double>(k) / (kColourPoses - 1) - 0.5;
-    exposure.colour_poses.push_back(path_.world_to_camera(colour_timestamp(i) + span * part));
-  }
+  exposure.colour_poses = poses_around(colour_timestamp(i), span, kColourPoses);
   exposure.readout = kinect_.readout_seconds / span;
   exposure.exposure = kinect_.exposure_seconds / span;
   exposure.samples = kBlurredSamples;

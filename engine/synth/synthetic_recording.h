@@ -24,6 +24,8 @@ struct SynthSettings {
   int frames = 60;                ///< number of frames, at 30 a second
   uint32_t seed = 1;              ///< of the scene, the path and the sensor
   SensorKind sensor = SensorKind::Perfect;
+  KinectModel kinect;  ///< of SensorKind::Kinect; the seed is that of the sequence, a jump of its exposure in
+                       ///< its middle
   bool moving_object = false;  ///< somebody walks through the scene; not in its mesh
 };
 
@@ -42,7 +44,8 @@ class SyntheticRecording : public Recording {
   Intrinsics intrinsics() const override;
   /// 1: depth is made in metres and never rounded to steps.
   double depth_unit() const override { return 1.0; }
-  /// i / 30 seconds: when the depth image is taken, for which the true pose is given.
+  /// i / 30 seconds: when the depth image is taken (the middle of its rows), for which the true pose is
+  /// given.
   double timestamp(int i) const override { return i / 30.0; }
   /// The middle of the colour image's exposure; later than timestamp() with the Kinect.
   double colour_timestamp(int i) const;
@@ -56,6 +59,7 @@ class SyntheticRecording : public Recording {
   const Scene& scene() const { return scene_; }
 
  private:
+  std::vector<Pose> poses_around(double middle, double span, int count) const;
   Exposure exposure_of(int i) const;
 
   SynthSettings settings_;

@@ -1,5 +1,5 @@
-// Casts rays from a camera into a synthetic scene: exact depth at the pixel centres, shaded colour from several samples
-// a pixel, each at its own time of the exposure.
+// Casts rays from a camera into a synthetic scene: exact depth at the pixel centres, each row at its own time, shaded colour
+// from several samples a pixel, each at its own time of the exposure.
 #include "synth_types.h"
 
 #define PASS cast_scene
@@ -10,10 +10,11 @@
   P(uint, first_moving)   /* shapes from here on move: they are not in the lists of the lights */                 \
   P(uint, lights)                                                                                                 \
   P(uint, samples)        /* of colour a pixel, a multiple of 4 */                                                \
+  P(uint, depth_poses)    /* evenly spaced in time, from the first row to the last */                             \
   P(uint, colour_poses)   /* evenly spaced in time */                                                             \
   P(float, readout)       /* time from the first row to the last, of the time that colour_poses span */           \
   P(float, exposure)      /* time that a row is exposed, likewise */                                              \
-  P(float, wander)        /* no colour pose is further from the depth pose than this, m */                        \
+  P(float, wander)        /* no pose is further from the first one than this, m */                                \
   P(float, swing)         /* nor turned further than this, radians */                                             \
   P(float, brightness)                                                                                            \
   P(uint, seed)

@@ -13,10 +13,11 @@ struct Ray {
   vec3 direction;  // camera z is 1: the distance along it is the depth
 };
 
-CastPose colour_pose(float time) {
-  const float at = clamp(time, 0, 1) * float(params.colour_poses - 1);
-  const uint before = min(uint(at), params.colour_poses - 1), after = min(before + 1, params.colour_poses - 1);
-  const CastPose a = poses[1 + before], b = poses[1 + after];
+/// The pose at a time from 0 to 1, over which so many of `poses` from `first` on are spaced.
+CastPose pose_at(float time, uint first, uint count) {
+  const float at = clamp(time, 0, 1) * float(count - 1);
+  const uint before = min(uint(at), count - 1), after = min(before + 1, count - 1);
+  const CastPose a = poses[first + before], b = poses[first + after];
   const float f = at - float(before);
   return CastPose(mix(a.origin, b.origin, f), mix(a.right, b.right, f), mix(a.down, b.down, f),
                   mix(a.forward, b.forward, f));
@@ -165,13 +166,13 @@ void main() {
   vec3 sum = vec3(0);
   for (uint first = 0; first < params.samples; first += 4) {
     Ray rays[RAYS];
-    rays[4] = ray_at(poses[0], vec2(at));
+    rays[4] = ray_at(pose_at(float(at.y) / float(params.height), 0, params.depth_poses), vec2(at));
     [[unroll]] for (uint s = 0; s < 4; ++s) {
       // Samples of one pixel cover its quarters and, evenly but shifted at random, the time of its exposure.
       const float shift = random_at(ivec3(at, first + s), params.seed);
       const float time = params.readout * float(at.y) / float(params.height) +
                          params.exposure * (float(first + s) + shift) / float(params.samples);
-      rays[s] = ray_at(colour_pose(time), vec2(at) + vec2(s & 1, s >> 1) * 0.5 - 0.25);
+      rays[s] = ray_at(pose_at(time, params.depth_poses, params.colour_poses), vec2(at) + vec2(s & 1, s >> 1) * 0.5 - 0.25);
     }
     const Hits hits = find_nearest(rays);
     if (first == 0) {

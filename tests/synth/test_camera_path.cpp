@@ -47,7 +47,8 @@ TEST_CASE("every path keeps its speed, turns within its limit and runs into noth
   const Bounds all[] = {{"robot", 0.15, 0.35, 30, 0.01},
                         {"handheld", 0.3, 0.6, 60, 3},
                         {"fast", 0.8, 1.2, 120, 4},
-                        {"loop", 0.3, 0.6, 60, 3}};
+                        {"loop", 0.3, 0.6, 60, 3},
+                        {"turn", 0.3, 0.5, 60, 3}};
   for (const std::string& name : scene_names()) {
     const Scene scene = make_scene(name, 1);
     for (const Bounds& bounds : all) {
@@ -91,6 +92,31 @@ TEST_CASE("a loop comes back to where it began") {
     const Pose start = path.world_to_camera(0).inverse(), end = path.world_to_camera(lap).inverse();
     CHECK((start.translation() - end.translation()).norm() < 0.3);
     CHECK(Eigen::AngleAxisd(start.linear().transpose() * end.linear()).angle() < 0.2);
+  }
+}
+
+TEST_CASE("a turn sees all around in 250 frames, from a circle of half a metre") {
+  for (const std::string& name : scene_names()) {
+    CAPTURE(name);
+    const CameraPath path(make_scene(name, 1), path_style("turn"), 1, 250 / 30.0);
+    double turned = 0;
+    Vector3d low = Vector3d::Constant(1e9), high = -low, outwards = Vector3d::Zero(),
+             centre = Vector3d::Zero();
+    for (int i = 0; i < 250; ++i) {
+      const Pose now = path.world_to_camera(i / 30.0).inverse();
+      const Pose next = path.world_to_camera((i + 1) / 30.0).inverse();
+      const Vector3d a = now.linear().col(2), b = next.linear().col(2);
+      turned += std::atan2(a.x() * b.y() - a.y() * b.x(), a.head<2>().dot(b.head<2>()));
+      low = low.cwiseMin(now.translation());
+      high = high.cwiseMax(now.translation());
+      centre += now.translation() / 250;
+      if (i == 0) outwards = now.translation();
+    }
+    CHECK(turned * 180 / std::numbers::pi == doctest::Approx(370).epsilon(0.01));
+    CHECK((high - low).x() == doctest::Approx(1).epsilon(0.03));
+    CHECK((high - low).y() == doctest::Approx(1).epsilon(0.03));
+    // It looks away from the middle.
+    CHECK((outwards - centre).dot(path.world_to_camera(0).inverse().linear().col(2)) > 0.4);
   }
 }
 

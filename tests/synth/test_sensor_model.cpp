@@ -125,6 +125,40 @@ TEST_CASE("exposure drifts within its bounds") {
   CHECK(most == doctest::Approx(1.12).epsilon(0.01));
 }
 
+TEST_CASE("exposure jumps in the middle, or fades in over twelve frames") {
+  KinectModel kinect;
+  kinect.exposure_drift = 0;
+  kinect.course = ExposureCourse::Jump;
+  kinect.jump_seconds = 2;
+  CHECK(kinect.brightness(1.99) == 1);
+  CHECK(kinect.brightness(2) == doctest::Approx(0.35));
+  kinect.course = ExposureCourse::FadeIn;
+  CHECK(kinect.brightness(0) == 0);
+  CHECK(kinect.brightness(6 / 30.0) == doctest::Approx(0.5));
+  CHECK(kinect.brightness(12 / 30.0) == doctest::Approx(1));
+  CHECK(kinect.brightness(5) == 1);
+}
+
+TEST_CASE("depth that is read row by row has each row from where the camera is then") {
+  SynthSettings settings{.path = "fast", .width = 160, .height = 120, .frames = 20};
+  settings.sensor = SensorKind::Kinect;
+  settings.kinect.disparity_step = 1e-5;  // no rounding
+  const SyntheticRecording at_once(testing::device_options(), settings);
+  settings.kinect.depth_readout_seconds = 0.03;
+  const SyntheticRecording by_rows(testing::device_options(), settings);
+  const cv::Mat a = at_once.load(10).frame->depth, b = by_rows.load(10).frame->depth;
+  const auto difference = [&](int row) {
+    cv::Mat apart;
+    cv::absdiff(a.rowRange(row, row + 2), b.rowRange(row, row + 2), apart);
+    const cv::Mat both = (a.rowRange(row, row + 2) > 0) & (b.rowRange(row, row + 2) > 0);
+    REQUIRE(cv::countNonZero(both) > 50);
+    return cv::mean(apart, both)[0];
+  };
+  CHECK(difference(59) < 0.2 * difference(0));
+  CHECK(difference(59) < 0.2 * difference(118));
+  CHECK(difference(0) > 0.005);
+}
+
 TEST_CASE("a fast camera blurs what a perfect one shows sharp, and its depth has holes and noise") {
   SynthSettings settings{.path = "fast", .width = 160, .height = 120, .frames = 20};
   const SyntheticRecording perfect(testing::device_options(), settings);

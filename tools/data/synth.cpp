@@ -35,6 +35,8 @@ constexpr const char* kSynthExamples =
 
 const std::map<std::string, SensorKind> kSensors = {{"perfect", SensorKind::Perfect},
                                                     {"kinect", SensorKind::Kinect}};
+const std::map<std::string, ExposureCourse> kCourses = {
+    {"drift", ExposureCourse::Drift}, {"jump", ExposureCourse::Jump}, {"fade-in", ExposureCourse::FadeIn}};
 const std::map<std::string, SequenceLayout> kLayouts = {{"replica", SequenceLayout::Replica},
                                                         {"tum", SequenceLayout::Tum}};
 
@@ -78,6 +80,32 @@ int synthesise(SynthOptions& options) {
   return interrupted() ? kInterrupted : kSuccess;
 }
 
+void add_kinect_options(CLI::App& synth, KinectModel& kinect) {
+  const std::string group = "With --sensor kinect";
+  synth.add_option("--range", kinect.furthest, "Farthest depth, metres")
+      ->check(CLI::Range(1.0, 13.0))
+      ->capture_default_str()
+      ->group(group);
+  synth.add_option("--colour-delay", kinect.colour_delay, "Seconds by which colour is later than depth")
+      ->check(CLI::Range(-0.05, 0.05))
+      ->capture_default_str()
+      ->group(group);
+  synth
+      .add_option("--depth-readout", kinect.depth_readout_seconds,
+                  "Seconds from the first row of a depth image to the last")
+      ->check(CLI::Range(0.0, 0.05))
+      ->capture_default_str()
+      ->group(group);
+  synth
+      .add_option(
+          "--exposure", kinect.course,
+          "Beside its slow drift: a jump to 0.35 of the light in the middle, or a fade-in over twelve "
+          "frames")
+      ->transform(CLI::CheckedTransformer(kCourses))
+      ->option_text("drift|jump|fade-in [drift]")
+      ->group(group);
+}
+
 }  // namespace
 
 void add_synth(CLI::App& program, Action& action) {
@@ -96,6 +124,7 @@ void add_synth(CLI::App& program, Action& action) {
   synth->add_option("--sensor", settings.sensor, "A perfect camera, or one with the errors of a Kinect")
       ->transform(CLI::CheckedTransformer(kSensors))
       ->option_text("perfect|kinect [perfect]");
+  add_kinect_options(*synth, settings.kinect);
   synth->add_option("--layout", options->layout, "Layout of the dataset")
       ->transform(CLI::CheckedTransformer(kLayouts))
       ->option_text("replica|tum [replica]");
