@@ -66,14 +66,14 @@ double ssim(const cv::Mat& image, const cv::Mat& reference) {
   return sum / (static_cast<double>(image.total()) * image.channels());
 }
 
-std::optional<double> depth_l1(const cv::Mat& rendered, const cv::Mat& sensor, double depth_max) {
+std::optional<double> depth_l1(const cv::Mat& rendered, const cv::Mat& sensor) {
   require_comparable("depth L1", rendered, sensor);
   double sum = 0;
   int64_t count = 0;
   for (int v = 0; v < sensor.rows; ++v) {
     for (int u = 0; u < sensor.cols; ++u) {
       const double z = sensor.at<float>(v, u);
-      if (!(z > 0 && z <= depth_max)) continue;
+      if (!(z > 0)) continue;
       sum += std::abs(rendered.at<float>(v, u) - z);
       ++count;
     }

@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "engine/eval/verdicts.h"
-#include "engine/sources/plausibility.h"
 
 namespace surefield {
 
@@ -84,10 +83,10 @@ Verdict intrinsics_verdict(const Recording& recording) {
   return {"intrinsics", Outcome::Fits, "field of view and centre are as of a depth camera"};
 }
 
-Verdict depth_verdict(const Recording& recording, const DatasetSurvey& survey, double depth_max) {
+Verdict depth_verdict(const Recording& recording, const DatasetSurvey& survey, const DepthReach& reach) {
   if (!readable(survey)) return {"depth", Outcome::NotChecked, "no frame can be read"};
   if (!survey.depth) return {"depth", Outcome::DoesNotFit, "no pixel of any frame has depth"};
-  const std::vector<std::string> findings = implausible(*survey.depth, recording.depth_unit(), depth_max);
+  const std::vector<std::string> findings = implausible(*survey.depth, recording.depth_unit(), reach);
   if (!findings.empty()) return {"depth", Outcome::DoesNotFit, joined(findings)};
   if (survey.depth->far < kTableTop) {
     return {"depth", Outcome::NotChecked,
@@ -95,9 +94,11 @@ Verdict depth_verdict(const Recording& recording, const DatasetSurvey& survey, d
                 "{:.2f} to {:.2f} m is as of a table top; if this is a room, depth_unit, {} m, is too small",
                 survey.depth->near, survey.depth->far, unit_text(recording.depth_unit()))};
   }
-  return {"depth", Outcome::Fits,
-          fmt::format("{:.2f} to {:.2f} m is as of a depth camera; {:.1f} % lie beyond depth_max, {:g} m",
-                      survey.depth->near, survey.depth->far, 100 * survey.depth->beyond, depth_max)};
+  std::string text =
+      fmt::format("{:.2f} to {:.2f} m is as of a depth camera", survey.depth->near, survey.depth->far);
+  if (reach.limit > 0)
+    text += fmt::format("; {:.1f} % lie beyond depth_max, {:g} m", 100 * survey.depth->beyond, reach.limit);
+  return {"depth", Outcome::Fits, text};
 }
 
 /// The times of the truth beside those of the frames.
@@ -143,13 +144,13 @@ const char* name(Outcome outcome) {
 }
 
 std::vector<Verdict> survey_verdicts(const Recording& recording, const Trajectory* truth,
-                                     const DatasetSurvey& survey, double depth_max) {
+                                     const DatasetSurvey& survey, const DepthReach& reach) {
   return {files_verdict(survey),
           sizes_verdict(recording, survey),
           frames_verdict(recording, survey),
           stamps_verdict(recording, survey),
           intrinsics_verdict(recording),
-          depth_verdict(recording, survey, depth_max),
+          depth_verdict(recording, survey, reach),
           poses_verdict(recording, truth, survey)};
 }
 

@@ -5,6 +5,7 @@
 
 #include "engine/eval/dataset_check.h"
 #include "engine/eval/dataset_survey.h"
+#include "engine/sources/plausibility.h"
 
 namespace surefield {
 
@@ -21,9 +22,9 @@ struct Verdict {
 const char* name(Outcome outcome);
 
 /// What reading the dataset says: files, sizes, frames, stamps, intrinsics, depth, poses, in this order.
-/// `truth` is the true trajectory, null where there is none; `depth_max`, metres, that of the survey.
+/// `truth` is the true trajectory, null where there is none; the limit of `reach` is that of the survey.
 std::vector<Verdict> survey_verdicts(const Recording& recording, const Trajectory* truth,
-                                     const DatasetSurvey& survey, double depth_max);
+                                     const DatasetSurvey& survey, const DepthReach& reach);
 
 /// What comparing frames says: depth_scale, focal_length, focal_ratio, registration, depth_delay, pose_delay.
 std::vector<Verdict> check_verdicts(const DatasetCheck& check, const Recording& recording);

@@ -2,6 +2,7 @@
 
 #include <fcntl.h>
 #include <sys/file.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -22,8 +23,14 @@ FolderLock::FolderLock(const std::filesystem::path& folder) : file_(folder / kNa
 
 FolderLock::~FolderLock() {
   std::error_code ignored;
-  std::filesystem::remove(file_, ignored);
+  if (is_in_place()) std::filesystem::remove(file_, ignored);
   close(descriptor_);
+}
+
+bool FolderLock::is_in_place() const {
+  struct stat own{}, there{};
+  return fstat(descriptor_, &own) == 0 && stat(file_.c_str(), &there) == 0 && own.st_dev == there.st_dev &&
+         own.st_ino == there.st_ino;
 }
 
 void FolderLock::moved_to(const std::filesystem::path& folder) {

@@ -16,6 +16,8 @@ class FolderLock {
   FolderLock(const FolderLock&) = delete;
   FolderLock& operator=(const FolderLock&) = delete;
 
+  /// Whether the folder still has this lock: not where it was removed, or made anew by somebody else.
+  bool is_in_place() const;
   /// The folder has another name now.
   void moved_to(const std::filesystem::path& folder);
 

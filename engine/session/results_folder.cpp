@@ -141,23 +141,21 @@ ResultsFolder::ResultsFolder(const std::filesystem::path& folder, bool overwrite
 }
 
 ResultsFolder::~ResultsFolder() {
-  if (!saved_) {
-    std::error_code ignored;
-    std::filesystem::remove(path_ / "log.txt", ignored);
-  }
-  lock_.reset();
+  const bool unused = !saved_ && lock_ && lock_->is_in_place();
   std::error_code ignored;
-  if (!saved_) std::filesystem::remove(path_, ignored);
+  if (unused) std::filesystem::remove(path_ / "log.txt", ignored);
+  lock_.reset();
+  if (unused) std::filesystem::remove(path_, ignored);
 }
 
 void ResultsFolder::make() {
   std::error_code error;
-  if (folder_exists(path_)) return log_file_->restore();
+  if (folder_exists(path_) && (!lock_ || lock_->is_in_place())) return log_file_->restore();
   std::filesystem::create_directories(path_, error);
   if (error) throw InputError(path_, "has vanished and cannot be made again: " + error.message());
-  log_->warn("{} had vanished and was made again", path_.string());
-  lock_.reset();
+  // Somebody may have removed the folder and begun another run in its place: then that one stays.
   lock_ = std::make_unique<FolderLock>(path_);
+  log_->warn("{} had vanished and was made again", path_.string());
   log_file_->restore();
 }
 
@@ -167,7 +165,7 @@ void ResultsFolder::remove(const std::string& name) {
 }
 
 void ResultsFolder::discard() {
-  remove_results(path_);
+  if (lock_ && lock_->is_in_place()) remove_results(path_);
 }
 
 bool ResultsFolder::publish() {

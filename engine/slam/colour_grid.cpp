@@ -25,7 +25,7 @@ void add_colour(ColourGrid& grid, const cv::Mat& colour, int x, int y) {
 
 }  // namespace
 
-ColourGrid make_colour_grid(const Frame& frame, double depth_max) {
+ColourGrid make_colour_grid(const Frame& frame) {
   ColourGrid grid;
   grid.cell = std::max(1, frame.colour.cols / kCellsAcross);
   grid.width = frame.colour.cols / grid.cell;
@@ -34,7 +34,7 @@ ColourGrid make_colour_grid(const Frame& frame, double depth_max) {
     for (int x = 0; x < grid.width; ++x) {
       add_colour(grid, frame.colour, x, y);
       const float z = frame.depth.at<float>(y * grid.cell + grid.cell / 2, x * grid.cell + grid.cell / 2);
-      grid.depth.push_back(z > 0 && z <= depth_max ? z : 0.0f);
+      grid.depth.push_back(z > 0 ? z : 0.0f);
     }
   return grid;
 }

@@ -21,6 +21,6 @@ struct ColourGrid {
 };
 
 /// The grid of a frame, about 40 cells wide.
-ColourGrid make_colour_grid(const Frame& frame, double depth_max);
+ColourGrid make_colour_grid(const Frame& frame);
 
 }  // namespace surefield

@@ -21,8 +21,8 @@ struct ColourPair {
   double rendered = 0;
 };
 
-bool shows_same_surface(const RenderImages& rendered, std::size_t pixel, float sensor, double depth_max) {
-  return sensor > 0 && sensor <= depth_max && rendered.opacity[pixel] >= kOpaque &&
+bool shows_same_surface(const RenderImages& rendered, std::size_t pixel, float sensor) {
+  return sensor > 0 && rendered.opacity[pixel] >= kOpaque &&
          std::abs(rendered.depth_normalised[pixel] - sensor) < kSameDepth * sensor;
 }
 
@@ -48,11 +48,11 @@ double robust_ratio(const std::vector<ColourPair>& pairs) {
 
 }  // namespace
 
-std::optional<Eigen::Vector3f> fit_gains(const Frame& frame, const RenderImages& rendered, double depth_max) {
+std::optional<Eigen::Vector3f> fit_gains(const Frame& frame, const RenderImages& rendered) {
   std::vector<ColourPair> pairs[3];
   const auto pixels = static_cast<std::size_t>(rendered.width) * rendered.height;
   for (std::size_t i = 0; i < pixels; ++i) {
-    if (!shows_same_surface(rendered, i, frame.depth.ptr<float>()[i], depth_max)) continue;
+    if (!shows_same_surface(rendered, i, frame.depth.ptr<float>()[i])) continue;
     for (std::size_t c = 0; c < 3; ++c) {
       const uint8_t value = frame.colour.ptr<uint8_t>()[3 * i + c];
       if (value > kDark && value < kFull) pairs[c].push_back({value / 255.0, rendered.colour[3 * i + c]});

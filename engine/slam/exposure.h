@@ -15,6 +15,6 @@ namespace surefield {
 /// badly weigh little. None where too little of the frame is in the map. There is no bias beside the gains: a
 /// render is softer than an image, and a line fitted between the two would take contrast from every
 /// keyframe.
-std::optional<Eigen::Vector3f> fit_gains(const Frame& frame, const RenderImages& rendered, double depth_max);
+std::optional<Eigen::Vector3f> fit_gains(const Frame& frame, const RenderImages& rendered);
 
 }  // namespace surefield

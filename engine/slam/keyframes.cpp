@@ -12,13 +12,12 @@ constexpr int kGridStep = 16;  // pixels between the samples of a keyframe's dep
 
 }  // namespace
 
-std::vector<Eigen::Vector3f> sample_points(const Frame& frame, const Intrinsics& intrinsics,
-                                           double depth_max) {
+std::vector<Eigen::Vector3f> sample_points(const Frame& frame, const Intrinsics& intrinsics) {
   std::vector<Eigen::Vector3f> points;
   for (int v = kGridStep / 2; v < frame.depth.rows; v += kGridStep)
     for (int u = kGridStep / 2; u < frame.depth.cols; u += kGridStep) {
       const float z = frame.depth.at<float>(v, u);
-      if (!(z > 0 && z <= depth_max)) continue;
+      if (!(z > 0)) continue;
       points.emplace_back(z * static_cast<float>((u - intrinsics.cx) / intrinsics.fx),
                           z * static_cast<float>((v - intrinsics.cy) / intrinsics.fy), z);
     }

@@ -29,8 +29,7 @@ Keyframe make_keyframe(const Frame& frame, FrameHandle handle, const Camera& cam
                        std::vector<Eigen::Vector3f> points);
 
 /// A coarse grid of the valid depths of a frame, back-projected to the camera frame; for covisibility.
-std::vector<Eigen::Vector3f> sample_points(const Frame& frame, const Intrinsics& intrinsics,
-                                           double depth_max);
+std::vector<Eigen::Vector3f> sample_points(const Frame& frame, const Intrinsics& intrinsics);
 
 /// The fraction of the points of `from` that `to` sees inside its image: covisibility by geometric overlap,
 /// in [0, 1].

@@ -115,7 +115,12 @@ void bind_keyframes(ConfigSchema& schema, KeyframeSettings& keyframes) {
 
 void SlamSettings::bind(ConfigSchema& schema) {
   schema.add("seed", &seed, Range{0, INT_MAX});
-  schema.add("depth_max", &depth_max, Range{0.1, 1000});
+  schema.add("sensor", &sensor,
+             Choices<DepthSensor>{{"structured-light", DepthSensor::StructuredLight},
+                                  {"time-of-flight", DepthSensor::TimeOfFlight},
+                                  {"stereo", DepthSensor::Stereo},
+                                  {"perfect", DepthSensor::Perfect}});
+  schema.add("depth_max", &depth_max, Range{0, 1000});
   schema.add("map_device_mb", &map_device_mb, Range{1, 1e6});
   schema.add("first_iterations", &first_iterations, kSteps);
   schema.add("mapping_iterations", &mapping_iterations, kSteps);

@@ -52,7 +52,8 @@ struct LightSettings {
 /// unit, and which values are permitted.
 struct SlamSettings {
   int seed = 1;
-  double depth_max = 5;
+  DepthSensor sensor = DepthSensor::StructuredLight;
+  double depth_max = 0;
   double map_device_mb = 2048;
   int first_iterations = 100;
   int mapping_iterations = 40;

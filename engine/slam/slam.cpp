@@ -15,11 +15,12 @@ Slam::Slam(const SlamSettings& settings, const Intrinsics& intrinsics, const Eng
 
 Slam::~Slam() = default;
 
-FrameReport Slam::feed(const Frame& frame, const Tracked& tracked) {
+FrameReport Slam::feed(const Frame& taken, const Tracked& tracked) {
   Implementation& s = *implementation_;
   Turn turn(s);
   s.check_usable();
-  s.check_images(frame);
+  s.check_images(taken);
+  const Frame frame = s.within_reach(taken);
   const bool first = s.history.empty();
   ColourGrid grid = s.look(frame);
   FrameReport found{.index = frame.index, .timestamp = frame.timestamp};

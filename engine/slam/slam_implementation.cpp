@@ -1,5 +1,9 @@
 #include "engine/slam/slam_implementation.h"
 
+#include <fmt/format.h>
+
+#include <cmath>
+#include <limits>
 #include <utility>
 
 #include "engine/slam/spawn.h"
@@ -11,12 +15,12 @@ namespace {
 
 constexpr std::size_t kKeyframeRest = 3;  // frames between keyframes that are due to little overlap
 
-FrameView view_of(const Frame& frame, double depth_max) {
+FrameView view_of(const Frame& frame, const SlamSettings& settings) {
   return {.width = frame.colour.cols,
           .height = frame.colour.rows,
           .colour = frame.colour.ptr<uint8_t>(),
           .depth = frame.depth.ptr<float>(),
-          .depth_max = static_cast<float>(depth_max)};
+          .noise = noise_of(settings.sensor)};
 }
 
 }  // namespace
@@ -43,18 +47,42 @@ void Slam::Implementation::check_images(const Frame& frame) const {
     throw UsageError("the frame's images do not have the size and type that the intrinsics ask for");
 }
 
+Frame Slam::Implementation::within_reach(const Frame& frame) const {
+  const double limit = settings.depth_max > 0 ? settings.depth_max : std::numeric_limits<float>::max();
+  Frame reached{frame.index, frame.timestamp, frame.colour, cv::Mat::zeros(frame.depth.size(), CV_32FC1)};
+  float nearest = std::numeric_limits<float>::infinity(), farthest = 0;
+  bool any = false;
+  for (int v = 0; v < frame.depth.rows; ++v)
+    for (int u = 0; u < frame.depth.cols; ++u) {
+      const float z = frame.depth.at<float>(v, u);
+      if (!(z > 0) || !std::isfinite(z)) continue;
+      nearest = std::min(nearest, z);
+      farthest = std::max(farthest, z);
+      if (z > limit) continue;
+      reached.depth.at<float>(v, u) = z;
+      any = true;
+    }
+  if (history.empty() && !any && farthest > 0) {
+    throw InputError(fmt::format(
+        "the first frame has no depth up to depth_max, {:g} m: it was read as {:.3g} to {:.3g} m; is "
+        "depth_unit, the metres for one step of the depth images, right, and is depth_max what you want?",
+        settings.depth_max, nearest, farthest));
+  }
+  return reached;
+}
+
 ColourGrid Slam::Implementation::look(const Frame& frame) {
-  ColourGrid grid = make_colour_grid(frame, settings.depth_max);
+  ColourGrid grid = make_colour_grid(frame);
   if (const auto objection = first_light.objection(frame, grid, !history.empty()))
     throw NoImageError(*objection);
   return grid;
 }
 
 Sighting Slam::Implementation::sight_first(const Frame& frame, ColourGrid grid, FrameReport& report) {
-  scene_extent(frame, settings.depth_max);  // throws where there is none
+  scene_extent(frame);  // throws where there is none
   report.keyframe = true;
-  return {{engine, view_of(frame, settings.depth_max)},
-          sample_points(frame, intrinsics, settings.depth_max),
+  return {{engine, view_of(frame, settings)},
+          sample_points(frame, intrinsics),
           keyframes.describe(frame),
           std::move(grid)};
 }
@@ -67,7 +95,7 @@ Sighting Slam::Implementation::sight(const Frame& frame, ColourGrid grid, FrameR
                       settings.light.correct_above);
   };
   if (before != as_it_is) report.gains = gains_now();
-  std::vector<Eigen::Vector3f> points = sample_points(frame, intrinsics, settings.depth_max);
+  std::vector<Eigen::Vector3f> points = sample_points(frame, intrinsics);
   upkeep.approach(points, predicted);
   Sighting sighting{hold(frame, report.gains, predicted), std::move(points), {}, {}};
   tracker.track(sighting.image.handle(), predicted, report);
@@ -92,7 +120,7 @@ Sighting Slam::Implementation::sight(const Frame& frame, ColourGrid grid, FrameR
 /// The frame for tracking: its images with the colours times these gains, taken from about `predicted`.
 HeldFrame Slam::Implementation::hold(const Frame& frame, const Eigen::Vector3f& gains,
                                      const Pose& predicted) {
-  return {engine, view_of(expose(frame, gains, predicted), settings.depth_max)};
+  return {engine, view_of(expose(frame, gains, predicted), settings)};
 }
 
 Frame Slam::Implementation::expose(const Frame& frame, const Eigen::Vector3f& gains, const Pose& pose) const {
@@ -163,7 +191,7 @@ Frame Slam::Implementation::add_keyframe(const Frame& frame, Sighting sighting) 
       mapped = expose(frame, report.gains, camera.world_to_camera);
     else
       keyframe.gains = report.gains;
-    keyframe.frame = engine.load(view_of(mapped, settings.depth_max));
+    keyframe.frame = engine.load(view_of(mapped, settings));
   }
   keyframes.add(std::move(keyframe), std::move(sighting.descriptor));
   history.make_last_keyframe();

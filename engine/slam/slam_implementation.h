@@ -67,6 +67,9 @@ struct Slam::Implementation {
 
   // Before mapping: these change nothing that a caller sees.
 
+  /// The frame without depth that is not finite, not positive, or beyond depth_max: 0 in its place. Throws
+  /// InputError where that leaves the first frame none.
+  Frame within_reach(const Frame& frame) const;
   /// Its coarse picture. Throws NoImageError where the image shows nothing, or the exposure has yet to
   /// settle.
   ColourGrid look(const Frame& frame);

@@ -1,10 +1,7 @@
 #include "engine/slam/spawn.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 #include "engine/slam/surface_normal.h"
@@ -18,17 +15,12 @@ namespace {
 constexpr double kMostStretch = 2;               // of a disc on a surface seen at a slant
 constexpr float kShBase = 0.28209479177387814f;  // the SH basis function of degree 0
 
-bool valid(float depth, double depth_max) {
-  return depth > 0 && depth <= depth_max;
-}
-
 /// Median of |rendered - sensor depth| where both are known and the map is opaque; 0 where nothing is.
-double median_depth_error(const Frame& frame, const RenderImages& rendered, const SpawnSettings& settings,
-                          double depth_max) {
+double median_depth_error(const Frame& frame, const RenderImages& rendered, const SpawnSettings& settings) {
   std::vector<float> errors;
   for (int i = 0; i < rendered.width * rendered.height; ++i) {
     const float sensor = frame.depth.at<float>(i / rendered.width, i % rendered.width);
-    if (valid(sensor, depth_max) && rendered.opacity[i] >= settings.opacity_below)
+    if (sensor > 0 && rendered.opacity[i] >= settings.opacity_below)
       errors.push_back(std::abs(rendered.depth_normalised[i] - sensor));
   }
   if (errors.empty()) return 0;
@@ -61,42 +53,29 @@ BirthShape birth_shape(const Eigen::Vector3d& ray, const Eigen::Vector3d& normal
 
 }  // namespace
 
-double scene_extent(const Frame& frame, double depth_max) {
+double scene_extent(const Frame& frame) {
   std::vector<float> depths;
-  float nearest = std::numeric_limits<float>::infinity(), farthest = 0;
   for (int v = 0; v < frame.depth.rows; ++v)
-    for (int u = 0; u < frame.depth.cols; ++u) {
-      const float z = frame.depth.at<float>(v, u);
-      if (!(z > 0)) continue;
-      nearest = std::min(nearest, z);
-      farthest = std::max(farthest, z);
-      if (z <= depth_max) depths.push_back(z);
-    }
-  if (farthest == 0) throw InputError("the first frame has no valid depth: all of its depth image is 0");
-  if (depths.empty()) {
-    throw InputError(fmt::format(
-        "the first frame has no depth up to depth_max, {:g} m: it was read as {:.3g} to {:.3g} m; is "
-        "depth_unit, the "
-        "metres for one step of the depth images, right, and is depth_max what the sensor reaches?",
-        depth_max, nearest, farthest));
-  }
+    for (int u = 0; u < frame.depth.cols; ++u)
+      if (frame.depth.at<float>(v, u) > 0) depths.push_back(frame.depth.at<float>(v, u));
+  if (depths.empty()) throw InputError("the first frame has no valid depth: all of its depth image is 0");
   const auto at = depths.begin() + static_cast<std::ptrdiff_t>(depths.size() * 9 / 10);
   std::nth_element(depths.begin(), at, depths.end());
   return *at;
 }
 
 GaussianCloud spawn_gaussians(const Frame& frame, const Camera& camera, const RenderImages* rendered,
-                              const SpawnSettings& settings, double depth_max, const Eigen::Vector3f& gains) {
+                              const SpawnSettings& settings, const Eigen::Vector3f& gains) {
   const Intrinsics& k = camera.intrinsics;
   const Pose camera_to_world = camera.world_to_camera.inverse();
   const double margin =
-      rendered ? settings.front_factor * median_depth_error(frame, *rendered, settings, depth_max) : 0;
+      rendered ? settings.front_factor * median_depth_error(frame, *rendered, settings) : 0;
   const auto logit = static_cast<float>(std::log(settings.opacity / (1 - settings.opacity)));
   GaussianCloud cloud;
   for (int v = 0; v < k.height; ++v)
     for (int u = 0; u < k.width; ++u) {
       const float z = frame.depth.at<float>(v, u);
-      if (!valid(z, depth_max)) continue;
+      if (!(z > 0)) continue;
       const std::size_t pixel = static_cast<std::size_t>(v) * k.width + u;
       const bool empty = !rendered || rendered->opacity[pixel] < settings.opacity_below;
       const bool in_front = rendered && margin > 0 && rendered->depth_normalised[pixel] - z > margin;
@@ -105,7 +84,7 @@ GaussianCloud spawn_gaussians(const Frame& frame, const Camera& camera, const Re
       cloud.means.push_back((camera_to_world * point).cast<float>());
       const double radius = settings.footprint * z * 2 / (k.fx + k.fy);
       const BirthShape shape =
-          birth_shape(point, surface_normal(frame, k, u, v, depth_max), radius, settings);
+          birth_shape(point, surface_normal(frame, k, u, v), radius, settings);
       cloud.log_scales.push_back(shape.scales.array().log().matrix().cast<float>());
       const Eigen::Quaternionf q((camera_to_world.rotation() * shape.rotation).cast<float>());
       cloud.rotations.emplace_back(q.w(), q.x(), q.y(), q.z());

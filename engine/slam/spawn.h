@@ -9,7 +9,7 @@ namespace surefield {
 
 /// Size of the scene that rates and scales are measured by, metres: the depth that nine tenths of the first
 /// frame lie within. Throws InputError where it has no valid depth.
-double scene_extent(const Frame& frame, double depth_max);
+double scene_extent(const Frame& frame);
 
 /// New Gaussians for what `frame` sees and the map does not show (paper section 3.3): one per pixel with
 /// valid depth whose rendered opacity is low, or that lies well in front of the rendered surface. `rendered`
@@ -17,7 +17,7 @@ double scene_extent(const Frame& frame, double depth_max);
 /// shows, of about a pixel's footprint; a sphere where that shows none. It has the pixel's colour
 /// times `gains` (exposure.h).
 GaussianCloud spawn_gaussians(const Frame& frame, const Camera& camera, const RenderImages* rendered,
-                              const SpawnSettings& settings, double depth_max,
+                              const SpawnSettings& settings,
                               const Eigen::Vector3f& gains = Eigen::Vector3f::Ones());
 
 }  // namespace surefield

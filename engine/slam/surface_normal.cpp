@@ -26,14 +26,14 @@ struct PlaneFit {
   }
 };
 
-PlaneFit fit_around(const cv::Mat& depth, int u, int v, double depth_max) {
+PlaneFit fit_around(const cv::Mat& depth, int u, int v) {
   PlaneFit fit;
   const float z = depth.at<float>(v, u);
   for (int dv = -kRadius; dv <= kRadius; ++dv)
     for (int du = -kRadius; du <= kRadius; ++du) {
       if (u + du < 0 || v + dv < 0 || u + du >= depth.cols || v + dv >= depth.rows) continue;
       const float other = depth.at<float>(v + dv, u + du);
-      if (other > 0 && other <= depth_max && std::abs(other - z) < kSameSurface * z)
+      if (other > 0 && std::abs(other - z) < kSameSurface * z)
         fit.add(du, dv, 1 / other);
     }
   return fit;
@@ -41,10 +41,10 @@ PlaneFit fit_around(const cv::Mat& depth, int u, int v, double depth_max) {
 
 }  // namespace
 
-Eigen::Vector3d surface_normal(const Frame& frame, const Intrinsics& k, int u, int v, double depth_max) {
+Eigen::Vector3d surface_normal(const Frame& frame, const Intrinsics& k, int u, int v) {
   const float z = frame.depth.at<float>(v, u);
-  if (!(z > 0 && z <= depth_max)) return Eigen::Vector3d::Zero();
-  const PlaneFit fit = fit_around(frame.depth, u, v, depth_max);
+  if (!(z > 0)) return Eigen::Vector3d::Zero();
+  const PlaneFit fit = fit_around(frame.depth, u, v);
   if (fit.count < kFewest || fit.normal.determinant() < kLeastDeterminant) return Eigen::Vector3d::Zero();
   const Eigen::Vector3d plane = fit.normal.ldlt().solve(fit.right);
   // n . X = 1 on the plane: 1/z = n . ((u - cx) / fx, (v - cy) / fy, 1).

@@ -21,7 +21,8 @@ void DepthHistogram::add(const cv::Mat& depth) {
 
 std::optional<DepthRange> DepthHistogram::range(double limit) const {
   if (valid_ == 0) return std::nullopt;
-  const double first = std::clamp(kBinsPerDoubling * std::log2(limit / kSmallest), 0.0, kBins - 1.0);
+  const double last = limit > 0 ? kBinsPerDoubling * std::log2(limit / kSmallest) : kBins;
+  const double first = std::clamp(last, 0.0, kBins - 1.0);
   uint64_t beyond = 0;
   for (auto bin = static_cast<std::size_t>(first) + 1; bin < kBins; ++bin) beyond += counts_[bin];
   return DepthRange{quantile(0.01), quantile(0.5), quantile(0.99),

@@ -94,7 +94,7 @@ std::vector<std::string> implausible(const Intrinsics& k) {
   return findings;
 }
 
-std::vector<std::string> implausible(const DepthRange& range, double depth_unit, double depth_max) {
+std::vector<std::string> implausible(const DepthRange& range, double depth_unit, const DepthReach& reach) {
   std::vector<std::string> findings;
   const std::string read =
       fmt::format("1 to 99 % of the depths are {:.3g} to {:.3g} m", range.near, range.far);
@@ -109,7 +109,12 @@ std::vector<std::string> implausible(const DepthRange& range, double depth_unit,
         fmt::format("{:.0f} % of the depths lie beyond depth_max, {:g} m, and will not be used ({}): "
                     "depth_max is too small, "
                     "or depth_unit, {} m, too large",
-                    100 * range.beyond, depth_max, read, unit_text(depth_unit)));
+                    100 * range.beyond, reach.limit, read, unit_text(depth_unit)));
+  } else if (range.far > reach.reach) {
+    const std::string units = likely_units(range, depth_unit);
+    findings.push_back(fmt::format(
+        "{}, farther than such a sensor measures: depth_unit is {} m{}; or say which sensor it is (key sensor)",
+        read, unit_text(depth_unit), units.empty() ? "" : "; do the files use " + units + " m?"));
   }
   if (range.holes > kMostHoles) {
     findings.push_back(fmt::format("{:.1f} % of the pixels have no depth", 100 * range.holes));

@@ -13,11 +13,17 @@ namespace surefield {
 /// value and what it may come from; empty where nothing speaks against it.
 std::vector<std::string> implausible(const Intrinsics& intrinsics);
 
+/// Which depths are used, and which there can be.
+struct DepthReach {
+  double limit = 0;   ///< metres, farther depths are not used; 0: all are
+  double reach = 15;  ///< metres, the sensor does not measure farther (reach_of())
+};
+
 /// What cannot be right about depths that were read with `depth_unit`, metres a step: half of them nearer or
 /// farther than depth cameras see, hardly a pixel with depth, the largest number that 16 bits hold among
-/// them, or nearly all beyond `depth_max`, metres, which is also the limit of `range.beyond`. As above; names
-/// the units that would give the depths of a room.
-std::vector<std::string> implausible(const DepthRange& range, double depth_unit, double depth_max);
+/// them, some beyond the sensor's reach, or nearly all beyond the limit, which is that of `range.beyond`. As
+/// above; names the units that would give the depths of a room.
+std::vector<std::string> implausible(const DepthRange& range, double depth_unit, const DepthReach& reach);
 
 /// "1/5000", or the number where it is no such fraction of note.
 std::string unit_text(double depth_unit);

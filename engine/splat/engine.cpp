@@ -196,7 +196,7 @@ JudgeResult SplatEngine::judge(std::span<const MappingView> views, const Mapping
   for (std::size_t v = 0; v < views.size(); ++v) {
     i.rasteriser.lists.submit(recorder, 1, [&](std::size_t) {
       i.judge.record_view(recorder, i.rasteriser, i.map, i.frames.on_device(views[v].frame),
-                          cameras[v].camera);
+                          cameras[v].camera, settings);
     });
   }
   i.judge.record_verdict(recorder, i.map, settings);

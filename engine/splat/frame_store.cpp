@@ -22,7 +22,8 @@ FrameHandle FrameStore::load(const FrameView& view) {
   place.images.assign(view);
   place.last_use = ++uses_;
   place.frame = next_frame_;
-  entries_[next_frame_] = {at, place.images.size, place.images.valid_pixels, std::nullopt};
+  entries_[next_frame_] = {at, place.images.size, place.images.valid_pixels, place.images.noise,
+                          std::nullopt};
   return next_frame_++;
 }
 
@@ -73,6 +74,7 @@ void FrameStore::pack(Place& place) {
 void FrameStore::unpack(const Entry& entry, SensorFrame& images) const {
   images.size = entry.size;
   images.valid_pixels = entry.valid_pixels;
+  images.noise = entry.noise;
   images.colour.upload(entry.packed->colour());
   images.depth.upload(entry.packed->depth());
 }

@@ -17,8 +17,8 @@ constexpr int kLaterSteps = 4;
 constexpr uint32_t kStrides[] = {3, 1, 1};
 // Tracking ends when an alignment has moved the camera by less, radians and metres.
 constexpr double kStill = 3e-4;
-// Where the scales of the residuals start: intensity (0 to 1), and distance over depth.
-constexpr glsl::AlignScales kFirstScales{.colour = 0.1f * 0.1f, .depth = 0.02f * 0.02f};
+// Where the scales of the residuals start: intensity (0 to 1), and distance in standard deviations of depth.
+constexpr glsl::AlignScales kFirstScales{.colour = 0.1f * 0.1f, .depth = 10 * 10};
 
 /// How far the last alignment has moved the camera: radians (to first order) or metres, the larger.
 double motion_of(const glsl::AlignState& state) {
@@ -142,8 +142,9 @@ void GaussNewtonTracker::record_begin(gpu::Recorder& recorder, const Rasteriser&
        .sensor_pixels = static_cast<float>(frame.valid_pixels)});
 }
 
-void GaussNewtonTracker::record_step(gpu::Recorder& recorder, const Rasteriser& rasteriser, int index,
-                                     std::size_t references, const TrackingSettings& settings) {
+void GaussNewtonTracker::record_step(gpu::Recorder& recorder, const Rasteriser& rasteriser,
+                                     const SensorFrame& frame, int index, std::size_t references,
+                                     const TrackingSettings& settings) {
   const Level& level = levels_[index];
   if (level.size.width < 2 || level.size.height < 2) return;  // nothing to interpolate between
   const uint64_t samples = (level.size.pixels() + kStrides[index] - 1) / kStrides[index];
@@ -157,7 +158,8 @@ void GaussNewtonTracker::record_step(gpu::Recorder& recorder, const Rasteriser& 
                                     .weight = 1,
                                     .balance = static_cast<float>(settings.gauss_newton.balance),
                                     .source = 0,
-                                    .first = 0};
+                                    .first = 0,
+                                    .noise = frame.noise};
   recorder.dispatch(
       sums_pass_, groups,
       {.state = state_, .points = level.points, .sensor = level.sensor, .partial_sums = partial_sums_},
@@ -178,15 +180,15 @@ void GaussNewtonTracker::record_step(gpu::Recorder& recorder, const Rasteriser& 
 
 /// Records the alignment of the frame to the render: on all levels, or on the finest alone.
 void GaussNewtonTracker::record_alignment(gpu::Recorder& recorder, const Rasteriser& rasteriser,
-                                          bool coarse_to_fine, std::size_t references,
+                                          const SensorFrame& frame, bool coarse_to_fine, std::size_t references,
                                           const TrackingSettings& settings) {
   record_points(recorder, rasteriser, settings);
   if (coarse_to_fine)
     for (int level = kLevels - 1; level >= 0; --level)
       for (int i = 0; i < kFirstSteps[level]; ++i)
-        record_step(recorder, rasteriser, level, references, settings);
+        record_step(recorder, rasteriser, frame, level, references, settings);
   else
-    for (int i = 0; i < kLaterSteps; ++i) record_step(recorder, rasteriser, 0, references, settings);
+    for (int i = 0; i < kLaterSteps; ++i) record_step(recorder, rasteriser, frame, 0, references, settings);
 }
 
 TrackingResult GaussNewtonTracker::track(Rasteriser& rasteriser, TrackingLoss& loss, const GaussianMap& map,
@@ -212,7 +214,7 @@ TrackingResult GaussNewtonTracker::track(Rasteriser& rasteriser, TrackingLoss& l
     rasteriser.lists.submit(recorder, 1, [&](std::size_t) {
       loss.record(recorder, rasteriser, map, view, frame, settings);
       record_begin(recorder, rasteriser, loss, frame, settings);
-      if (!last) record_alignment(recorder, rasteriser, is_first, references.size(), settings);
+      if (!last) record_alignment(recorder, rasteriser, frame, is_first, references.size(), settings);
     });
     state = state_.download(1)[0];
     if (!last) ++result.iterations;

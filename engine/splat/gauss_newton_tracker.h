@@ -58,9 +58,9 @@ class GaussNewtonTracker {
   void record_points(gpu::Recorder& recorder, const Rasteriser& rasteriser, const TrackingSettings& settings);
   void record_begin(gpu::Recorder& recorder, const Rasteriser& rasteriser, const TrackingLoss& loss,
                     const SensorFrame& frame, const TrackingSettings& settings);
-  void record_step(gpu::Recorder& recorder, const Rasteriser& rasteriser, int level, std::size_t references,
-                   const TrackingSettings& settings);
-  void record_alignment(gpu::Recorder& recorder, const Rasteriser& rasteriser, bool coarse_to_fine,
+  void record_step(gpu::Recorder& recorder, const Rasteriser& rasteriser, const SensorFrame& frame, int level,
+                   std::size_t references, const TrackingSettings& settings);
+  void record_alignment(gpu::Recorder& recorder, const Rasteriser& rasteriser, const SensorFrame& frame, bool coarse_to_fine,
                         std::size_t references, const TrackingSettings& settings);
 
   gpu::Device& device_;

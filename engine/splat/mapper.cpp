@@ -62,10 +62,12 @@ void Mapper::record_ssim(gpu::Recorder& recorder, const Rasteriser& rasteriser, 
                      .sensor_colour = frame.colour,
                      .geometry = rasteriser.geometry,
                      .moments = moments_,
-                     .median_count = median_count_},
+                     .median_count = median_count_,
+                     .sensor_depth = frame.depth},
                     {.width = width, .height = height, .gains = gains});
   recorder.dispatch(ssim_columns_, ssim_columns_.groups(column_strips),
-                    {.moments = moments_, .slopes = slopes_, .ssim_partials = ssim_partials_},
+                    {.moments = moments_, .slopes = slopes_, .ssim_partials = ssim_partials_,
+                     .sensor_depth = frame.depth},
                     {.width = width, .height = height});
   recorder.dispatch(ssim_slope_rows_, ssim_slope_rows_.groups(row_strips),
                     {.slopes = slopes_, .row_slopes = row_slopes_}, {.width = width, .height = height});
@@ -100,7 +102,8 @@ void Mapper::record_loss(gpu::Recorder& recorder, Rasteriser& rasteriser, const 
                      .w_align = static_cast<float>(settings.weight_align),
                      .w_variance = static_cast<float>(settings.weight_variance),
                      .background = to_vec3(view.background),
-                     .gains = camera.gains});
+                     .gains = camera.gains,
+                     .noise = frame.noise});
   recorder.dispatch(sum_losses_, 1, {.loss_partials = loss_partials_, .loss = loss},
                     {.count = column_strips});
 }
@@ -163,8 +166,8 @@ void Mapper::record_step(gpu::Recorder& recorder, Rasteriser& rasteriser, Gaussi
 
 double Mapper::read_loss(const SensorFrame& frame, const MappingSettings& settings) const {
   const glsl::LossSums s = loss.download(1)[0];
-  const double channels = 3.0 * static_cast<double>(frame.size.pixels());
   const double valid = std::max(1u, frame.valid_pixels), medians = std::max(1.0f, s.medians);
+  const double channels = 3 * valid;
   return settings.weight_colour * s.colour / channels + settings.weight_ssim * (1 - s.ssim / channels) +
          settings.weight_depth * s.depth / valid + settings.weight_align * s.align / medians +
          settings.weight_variance * s.variance / valid;

@@ -8,6 +8,7 @@
 #include "engine/gpu/device_counters.h"
 #include "engine/splat/pose_gradient.h"
 #include "engine/types/camera.h"
+#include "engine/types/depth_noise.h"
 
 namespace surefield {
 
@@ -31,8 +32,8 @@ struct FrameView {
   int width = 0;
   int height = 0;
   const uint8_t* colour = nullptr;  ///< RGB, 3 bytes a pixel
-  const float* depth = nullptr;     ///< metres; invalid where not finite, not positive or beyond depth_max
-  float depth_max = 0;              ///< metres
+  const float* depth = nullptr;     ///< metres; invalid where not finite or not positive
+  DepthNoise noise = noise_of(DepthSensor::StructuredLight);  ///< of the depth
 };
 
 /// How tracking minimises its loss.

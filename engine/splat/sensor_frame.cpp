@@ -1,5 +1,7 @@
 #include "engine/splat/sensor_frame.h"
 
+#include <cmath>
+
 namespace surefield {
 
 SensorFrame::SensorFrame(gpu::Device& device)
@@ -17,17 +19,21 @@ void SensorFrame::reserve(const ImageSize& room) {
 void SensorFrame::assign(const FrameView& view) {
   size = {static_cast<uint32_t>(view.width), static_cast<uint32_t>(view.height)};
   valid_pixels = 0;
+  double weights = 0;
   std::vector<glsl::uint> packed(size.pixels());
   std::vector<float> metres(size.pixels(), 0.0f);
   for (uint64_t i = 0; i < size.pixels(); ++i) {
     const uint8_t* rgb = view.colour + 3 * i;
     packed[i] = rgb[0] | uint32_t{rgb[1]} << 8 | uint32_t{rgb[2]} << 16 | 0xFF000000u;
-    // NaN fails both comparisons.
-    if (view.depth[i] > 0 && view.depth[i] <= view.depth_max) {
+    if (view.depth[i] > 0 && std::isfinite(view.depth[i])) {
       metres[i] = view.depth[i];
       ++valid_pixels;
+      weights += 1 / view.noise.sigma(view.depth[i]);
     }
   }
+  noise = {static_cast<float>(view.noise.constant), static_cast<float>(view.noise.linear),
+           static_cast<float>(view.noise.quadratic),
+           static_cast<float>(weights > 0 ? valid_pixels / weights : 1)};
   colour.upload(packed);
   depth.upload(metres);
 }

@@ -50,7 +50,9 @@ void TrackingLoss::record(gpu::Recorder& recorder, Rasteriser& rasteriser, const
                      .sensor_depth = frame.depth,
                      .residuals = residuals_,
                      .histograms = histograms_},
-                    {.pixels = pixels, .minimum_opacity = static_cast<float>(settings.minimum_opacity)});
+                    {.pixels = pixels,
+                     .minimum_opacity = static_cast<float>(settings.minimum_opacity),
+                     .noise = frame.noise});
   record_masks(recorder, pixels, settings.outlier_factor);
 }
 
@@ -70,7 +72,8 @@ void TrackingLoss::record_gradient(gpu::Recorder& recorder, Rasteriser& rasteris
                     {.pixels = pixels,
                      .weight_colour = static_cast<float>(settings.weight_colour),
                      .weight_depth = static_cast<float>(settings.weight_depth),
-                     .background = to_vec3(view.background)});
+                     .background = to_vec3(view.background),
+                     .noise = frame.noise});
 }
 
 }  // namespace surefield

@@ -16,7 +16,8 @@ void UncertaintyJudge::record_begin(gpu::Recorder& recorder, const GaussianMap& 
 }
 
 void UncertaintyJudge::record_view(gpu::Recorder& recorder, Rasteriser& rasteriser, const GaussianMap& map,
-                                   const SensorFrame& frame, const gpu::Array<glsl::CameraState>& camera) {
+                                   const SensorFrame& frame, const gpu::Array<glsl::CameraState>& camera,
+                                   const MappingSettings& settings) {
   rasteriser.record_forward(recorder, map, {frame.size, camera, frame.depth}, Outputs::All);
   const auto pixels = static_cast<uint32_t>(frame.size.pixels());
   recorder.dispatch(sum_pass_, sum_pass_.groups(pixels),
@@ -26,7 +27,9 @@ void UncertaintyJudge::record_view(gpu::Recorder& recorder, Rasteriser& rasteris
                      .geometry = rasteriser.geometry,
                      .splats = rasteriser.lists.splats,
                      .sums = sums},
-                    {.pixels = pixels});
+                    {.pixels = pixels,
+                     .above = static_cast<float>(settings.uncertainty_above),
+                     .noise = frame.noise});
 }
 
 void UncertaintyJudge::record_verdict(gpu::Recorder& recorder, GaussianMap& map,

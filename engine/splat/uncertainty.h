@@ -17,7 +17,8 @@ class UncertaintyJudge {
   void record_begin(gpu::Recorder& recorder, const GaussianMap& map);
   /// Records the render of a view and adds its pixels; nothing is added where the view has too little room.
   void record_view(gpu::Recorder& recorder, Rasteriser& rasteriser, const GaussianMap& map,
-                   const SensorFrame& frame, const gpu::Array<glsl::CameraState>& camera);
+                   const SensorFrame& frame, const gpu::Array<glsl::CameraState>& camera,
+                   const MappingSettings& settings);
   /// Records the verdict on all views since record_begin(): map.uncertainty of the Gaussians that dominated a
   /// pixel, and the opacity of the uncertain ones of these, with its moments.
   void record_verdict(gpu::Recorder& recorder, GaussianMap& map, const MappingSettings& settings);

@@ -224,8 +224,7 @@ void ViewerApp::load_sensor() {
   painter_.set_sensor({.width = frame.colour.cols,
                        .height = frame.colour.rows,
                        .colour = frame.colour.data,
-                       .depth = frame.depth.ptr<float>(),
-                       .depth_max = std::numeric_limits<float>::max()},
+                       .depth = frame.depth.ptr<float>()},
                       frame.camera.intrinsics);
   new_sensor_ = false;
 }

@@ -1,11 +1,13 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "mapping_gradient.h"
+#include "depth_noise.glsl"
 #include "ssim.glsl"
 #include "pixel_upstream.glsl"
 
 // One invocation per strip of STRIP pixels of a column, as in ssim_columns: finishes the blur of SSIM's slopes and adds
-// the L1 terms. A pixel without sensor depth has no part in the depth terms, one without a median none in L_align.
+// the L1 terms. A pixel without sensor depth has no part in them, so that
+// no Gaussian grows where nothing was measured; one without a median none in L_align.
 void main() {
   const uint strips = (params.height + STRIP - 1) / STRIP;
   const uint i = gl_GlobalInvocationID.x;
@@ -28,8 +30,7 @@ void main() {
     }
   }
 
-  const float per_channel = 1 / (3 * float(params.width) * float(params.height));
-  const float per_valid = 1 / max(params.valid_pixels, 1.0);
+  const float per_valid = 1 / max(params.valid_pixels, 1.0), per_channel = per_valid / 3;
   const float per_median = 1 / max(float(median_count[0]), 1.0);
   LossSums sums = LossSums(0.0, ssim_partials[i], 0.0, 0.0, 0.0, 0.0);
   [[unroll]] for (int o = 0; o < STRIP; ++o) {
@@ -42,17 +43,18 @@ void main() {
     const float depth = NORMALISED_DEPTH == 0 ? geo.x : (image.a > 0 ? geo.x / image.a : 0.0);
 
     PixelGradient g = PixelGradient(vec3(0), 0.0, 0.0, 0.0, 0.0, 0.0);
-    const vec3 difference = image.rgb - target;
-    g.colour = params.w_colour * per_channel * sign(difference) -
-               params.w_ssim * per_channel *
-                   (blurred[o].x + 2 * image.rgb * blurred[o].xx + target * blurred[o].xy);
     float g_depth = 0;
-    sums.colour += abs(difference.r) + abs(difference.g) + abs(difference.b);
     if (sensor > 0) {
-      g_depth += params.w_depth * per_valid * sign(depth - sensor);
-      g.uncertainty = params.w_variance * per_valid;
-      sums.depth += abs(depth - sensor);
-      sums.variance += geo.z;
+      const vec3 difference = image.rgb - target;
+      g.colour = params.w_colour * per_channel * sign(difference) -
+                 params.w_ssim * per_channel *
+                     (blurred[o].x + 2 * image.rgb * blurred[o].xx + target * blurred[o].xy);
+      sums.colour += abs(difference.r) + abs(difference.g) + abs(difference.b);
+      const float weight = depth_weight(params.noise, sensor);
+      g_depth += params.w_depth * per_valid * weight * sign(depth - sensor);
+      g.uncertainty = params.w_variance * per_valid * weight;
+      sums.depth += weight * abs(depth - sensor);
+      sums.variance += weight * geo.z;
     }
     if (geo.y > 0) {
       const float s = params.w_align * per_median * sign(depth - geo.y);

@@ -39,8 +39,10 @@ void main() {
     g.x = 2 * s.y * (a2 - a1) * inverse - 2 * s.x * ssim * (1 / b1 - 1 / b2);
     g.xx = -ssim / b2;
     g.xy = 2 * a1 * inverse;
-    slopes[uint(first + o) * params.width + column] = g;
-    total += ssim.r + ssim.g + ssim.b;
+    const uint at = uint(first + o) * params.width + column;
+    const float takes_part = sensor_depth[at] > 0 ? 1.0 : 0.0;
+    slopes[at] = SsimSlopes(takes_part * g.x, takes_part * g.xx, takes_part * g.xy);
+    total += takes_part * (ssim.r + ssim.g + ssim.b);
   }
   ssim_partials[i] = total;
 }

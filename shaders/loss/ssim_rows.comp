@@ -17,7 +17,7 @@ void main() {
     const int column = first + p - WINDOW_RADIUS;
     const bool inside = column >= 0 && column < int(params.width);
     const uint at = row + uint(clamp(column, 0, int(params.width) - 1));
-    const float mask = inside ? 1.0 : 0.0;
+    const float mask = inside && sensor_depth[at] > 0 ? 1.0 : 0.0;
     const vec3 x = mask * colour_opacity[at].rgb, 
                y = mask * params.gains * unpackUnorm4x8(sensor_colour[at]).rgb;
     const vec3 squares = x * x + y * y, xy = x * y;

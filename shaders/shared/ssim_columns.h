@@ -6,5 +6,6 @@
 #define PASS_BINDINGS(READ, WRITE, UPDATE) \
   READ(0, SsimMoments, moments)            \
   WRITE(1, SsimSlopes, slopes)             \
-  WRITE(2, float, ssim_partials)
+  WRITE(2, float, ssim_partials)           \
+  READ(3, float, sensor_depth)
 #include "declare_pass.h"

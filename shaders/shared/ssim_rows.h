@@ -1,4 +1,4 @@
-// SSIM, first pass: moments blurred along the rows. Counts the pixels with a median depth on the way.
+// SSIM, first pass: moments blurred along the rows; pixels without sensor depth are as if outside of the image. Counts the pixels with a median depth on the way.
 #include "loss_types.h"
 
 #define PASS ssim_rows
@@ -8,5 +8,6 @@
   READ(1, uint, sensor_colour)             \
   READ(2, vec4, geometry)                  \
   WRITE(3, SsimMoments, moments)           \
-  UPDATE(4, uint, median_count)
+  UPDATE(4, uint, median_count)            \
+  READ(5, float, sensor_depth)
 #include "declare_pass.h"

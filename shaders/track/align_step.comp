@@ -7,7 +7,8 @@
 
 shared AlignSums tree[gl_WorkGroupSize.x];
 
-const float LEAST_VARIANCE = 1e-8;   // of either residual, so that perfect data do not divide by zero
+// Of the residuals, so that perfect data do not divide by zero: of intensity, and of distance in standard deviations.
+const float LEAST_COLOUR = 1e-8, LEAST_DEPTH = 0.01;
 const float DAMPING = 1e-4;          // of the diagonal
 
 AlignSums add(AlignSums a, AlignSums b) {
@@ -54,13 +55,13 @@ bool solve(AlignSums s, out float x[6]) {
 }
 
 /// The squared scale of a t-distribution from the weighted squares of its residuals.
-float variance_of(float squares, float pixels, float before) {
-  return pixels > 0 ? max(squares / pixels, LEAST_VARIANCE) : before;
+float variance_of(float squares, float pixels, float least, float before) {
+  return pixels > 0 ? max(squares / pixels, least) : before;
 }
 
 AlignScales scales_of(AlignSums s, AlignScales before) {
-  return AlignScales(variance_of(s.squares_colour, s.pixels_colour, before.colour),
-                     variance_of(s.squares_depth, s.pixels_depth, before.depth));
+  return AlignScales(variance_of(s.squares_colour, s.pixels_colour, LEAST_COLOUR, before.colour),
+                     variance_of(s.squares_depth, s.pixels_depth, LEAST_DEPTH, before.depth));
 }
 
 /// The sum of the partial sums of a source, for invocation 0; all of the workgroup take part.

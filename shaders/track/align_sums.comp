@@ -1,6 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "align_sums.h"
+#include "depth_noise.glsl"
 #include "pyramid.glsl"
 #include "triangle.glsl"
 
@@ -45,7 +46,7 @@ AlignSums subgroup_sums(AlignSums s) {
 // One invocation per ALIGN_STRIP of the pixels that take part, `strips` times `stride` apart. A point of the render, or of a keyframe,
 // moves with the camera and is looked up in the sensor's image: its intensity between four pixels, its depth at the nearest
 // one. The residuals are the difference of intensity, and the distance to the point that the sensor measured along the
-// normal. Each subgroup writes one sum.
+// normal, in standard deviations of the sensor. Each subgroup writes one sum.
 void main() {
   const uint strip = gl_GlobalInvocationID.x;
   const vec4 k = intrinsics_at(state[0].base, params.level);
@@ -100,7 +101,7 @@ void main() {
     const vec3 S = unproject(k, vec2(corner) + vec2(right, lower), depth);
     const bool measured = visible && depth > 0 && abs(depth - Y.z) < DEPTH_GATE * Y.z && point.normal != vec3(0);
     const vec3 m = R * point.normal;
-    const float scale = 1 / z;
+    const float scale = 1 / sigma_at(params.noise, z);
     const float distance = measured ? scale * dot(m, Y - S) : 0;
     const float w_depth = measured ? t_weight(distance, variance_depth) : 0;
     s.squares_depth += w_depth * distance * distance;

@@ -28,7 +28,7 @@ DatasetSurvey good_survey() {
 
 Verdict said(const Recording& recording, const Trajectory* truth, const DatasetSurvey& survey,
              const std::string& subject) {
-  for (const Verdict& verdict : survey_verdicts(recording, truth, survey, 5))
+  for (const Verdict& verdict : survey_verdicts(recording, truth, survey, {5, 15}))
     if (verdict.subject == subject) return verdict;
   FAIL("nothing is said about ", subject);
   return {};
@@ -43,12 +43,12 @@ void check_faulty(const Verdict& verdict, const std::string& text) {
 
 TEST_CASE("a good survey: all fits but for what there is not") {
   const Told told(20);
-  for (const Verdict& verdict : survey_verdicts(told, nullptr, good_survey(), 5)) {
+  for (const Verdict& verdict : survey_verdicts(told, nullptr, good_survey(), {5, 15})) {
     CAPTURE(verdict.subject);
     CHECK_FALSE(verdict.text.empty());
     CHECK(verdict.outcome == (verdict.subject == "poses" ? Outcome::NotChecked : Outcome::Fits));
   }
-  CHECK(findings_of(survey_verdicts(told, nullptr, good_survey(), 5)).empty());
+  CHECK(findings_of(survey_verdicts(told, nullptr, good_survey(), {5, 15})).empty());
 }
 
 TEST_CASE("unreadable frames: a few are told, more do not fit, and of none nothing else is said") {

@@ -148,6 +148,25 @@ TEST_CASE("a folder that vanishes is made again, with the log from the beginning
   CHECK(contains(read_file(folder / "deep/run/log.txt"), "the first line"));
 }
 
+TEST_CASE("a run whose folder was removed, and taken by another run, leaves that alone") {
+  const TemporaryFolder folder;
+  {
+    ResultsFolder old(folder / "run");
+    write(old, "trajectory.txt", "old");
+    std::filesystem::remove_all(folder / "run.partial");
+    ResultsFolder other(folder / "run");
+    write(other, "trajectory.txt", "other");
+    write(old, "trajectory.txt", "old again");
+    CHECK(old.problems().size() == 1);
+    CHECK(contains(old.problems().front(), "another run is writing there"));
+    CHECK(read_file(folder / "run.partial/trajectory.txt") == "other");
+    CHECK_FALSE(old.publish());
+    old.discard();
+    CHECK(other.publish());
+  }
+  CHECK(read_file(folder / "run/trajectory.txt") == "other");
+}
+
 TEST_CASE("a link to a folder stays a link") {
   const TemporaryFolder folder;
   publish(folder / "real", "first");

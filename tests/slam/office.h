@@ -21,7 +21,7 @@ inline SyntheticRecording office(int frames) {
 /// Settings of few steps, with which every third frame becomes a keyframe.
 inline SlamSettings quick_settings() {
   SlamSettings settings;
-  settings.depth_max = 10;
+  settings.sensor = DepthSensor::Perfect;
   settings.first_iterations = 40;
   settings.mapping_iterations = 10;
   settings.tracking.adam.first_iterations = 25;

@@ -20,7 +20,7 @@ struct FrameUse {
 
 SlamSettings quick(TrackingMethod method) {
   SlamSettings settings;
-  settings.depth_max = 10;
+  settings.sensor = DepthSensor::Perfect;
   settings.first_iterations = 10;
   settings.mapping_iterations = 4;
   settings.keyframes.interval = 3;

@@ -31,7 +31,7 @@ struct ExposedPair {
 TEST_CASE("the gains of a frame are those between the render and its colours") {
   const Eigen::Vector3f gains(1.5f, 1.25f, 0.5f);
   const ExposedPair pair(gains);
-  const auto found = fit_gains(pair.frame, pair.rendered, 5);
+  const auto found = fit_gains(pair.frame, pair.rendered);
   REQUIRE(found);
   CHECK(found->isApprox(gains, 1e-4f));
 }
@@ -59,7 +59,7 @@ TEST_CASE(
         pair.frame.colour.at<cv::Vec3b>(i / kWidth, i % kWidth) = cv::Vec3b(255, 255, 255);
     }
   }
-  const auto found = fit_gains(pair.frame, pair.rendered, 5);
+  const auto found = fit_gains(pair.frame, pair.rendered);
   REQUIRE(found);
   CHECK(found->isApprox(gains, 1e-4f));
 }
@@ -69,7 +69,7 @@ TEST_CASE("a fifth of the pixels that look different moves the gains by little")
   ExposedPair pair(gains);
   for (int i = 0; i < 3 * kPixels; ++i)
     if (i / 3 % 5 == 0) pair.rendered.colour[i] = 1;
-  const auto found = fit_gains(pair.frame, pair.rendered, 5);
+  const auto found = fit_gains(pair.frame, pair.rendered);
   REQUIRE(found);
   CHECK((*found - gains).cwiseAbs().maxCoeff() < 0.03f);
 }
@@ -77,10 +77,10 @@ TEST_CASE("a fifth of the pixels that look different moves the gains by little")
 TEST_CASE("there are no gains where the map shows too little of the frame, or black") {
   ExposedPair pair(Eigen::Vector3f::Ones());
   pair.rendered.opacity.assign(kPixels, 0.0f);
-  CHECK_FALSE(fit_gains(pair.frame, pair.rendered, 5));
+  CHECK_FALSE(fit_gains(pair.frame, pair.rendered));
   pair.rendered.opacity.assign(kPixels, 1.0f);
-  CHECK(fit_gains(pair.frame, pair.rendered, 5));
+  CHECK(fit_gains(pair.frame, pair.rendered));
   pair.rendered.colour.assign(3 * kPixels, 0.0f);
-  CHECK_FALSE(fit_gains(pair.frame, pair.rendered, 5));
-  CHECK_FALSE(fit_gains(Frame{}, RenderImages{}, 5));
+  CHECK_FALSE(fit_gains(pair.frame, pair.rendered));
+  CHECK_FALSE(fit_gains(Frame{}, RenderImages{}));
 }

@@ -19,7 +19,7 @@ Keyframe keyframe(double x, double yaw = 0) {
   camera_to_world.translate(Eigen::Vector3d(x, 0, 0))
       .rotate(Eigen::AngleAxisd(yaw, Eigen::Vector3d::UnitY()));
   return make_keyframe(frame, 0, {kIntrinsics, camera_to_world.inverse()},
-                       sample_points(frame, kIntrinsics, 5));
+                       sample_points(frame, kIntrinsics));
 }
 
 }  // namespace
@@ -27,11 +27,10 @@ Keyframe keyframe(double x, double yaw = 0) {
 TEST_CASE("sampled points leave out invalid depth and lie where the pixel looks") {
   Frame frame;
   frame.depth = cv::Mat(48, 64, CV_32FC1, cv::Scalar(2.0));
-  CHECK(sample_points(frame, kIntrinsics, 5).size() == 12);
-  CHECK(sample_points(frame, kIntrinsics, 1).empty());
+  CHECK(sample_points(frame, kIntrinsics).size() == 12);
   frame.depth.at<float>(8, 8) = 0;
   frame.depth.at<float>(8, 24) = NAN;
-  const auto points = sample_points(frame, kIntrinsics, 5);
+  const auto points = sample_points(frame, kIntrinsics);
   REQUIRE(points.size() == 10);
   CHECK(points[0].isApprox(Eigen::Vector3f(2 * (40 - 31.5f) / 60, 2 * (8 - 23.5f) / 60, 2)));
 }

@@ -43,9 +43,9 @@ Camera camera_at(double shift) {
 Eigen::Vector3f found(const Frame& frame, double shift = 0,
                       const Eigen::Vector3f& before = Eigen::Vector3f::Ones(),
                       const Eigen::Vector3f& reference_gains = Eigen::Vector3f::Ones()) {
-  const ColourGrid keyframe = make_colour_grid(wall(), 5);
+  const ColourGrid keyframe = make_colour_grid(wall());
   const std::vector<LitView> references{{keyframe, reference_gains, camera_at(0)}};
-  return find_gains(make_colour_grid(frame, 5), camera_at(shift), references, before, 0.15);
+  return find_gains(make_colour_grid(frame), camera_at(shift), references, before, 0.15);
 }
 
 }  // namespace
@@ -54,8 +54,8 @@ TEST_CASE("a grid has the means and the peaks of cells, and a depth") {
   Frame frame = wall();
   frame.colour(cv::Rect(8, 4, 4, 4)) = cv::Scalar(10, 20, 30);
   frame.colour.at<cv::Vec3b>(5, 9) = cv::Vec3b(26, 20, 255);
-  frame.depth.at<float>(6, 10) = 7;
-  const ColourGrid grid = make_colour_grid(frame, 5);
+  frame.depth.at<float>(6, 10) = 0;
+  const ColourGrid grid = make_colour_grid(frame);
   CHECK(grid.cell == 4);
   REQUIRE(grid.width == 40);
   REQUIRE(grid.height == 30);
@@ -152,7 +152,7 @@ std::vector<bool> passed_over(const std::vector<float>& lights) {
   bool begun = false;
   for (float light : lights) {
     const Frame frame = in_light(wall(), Eigen::Vector3f::Constant(light));
-    passed.push_back(first_light.objection(frame, make_colour_grid(frame, 5), begun).has_value());
+    passed.push_back(first_light.objection(frame, make_colour_grid(frame), begun).has_value());
     begun = begun || !passed.back();
   }
   return passed;

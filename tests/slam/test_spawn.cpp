@@ -31,11 +31,11 @@ TEST_CASE("the first frame spawns one Gaussian per valid pixel, where the pixel 
   Frame frame = wall(2);
   frame.depth.at<float>(0, 0) = 0;
   frame.depth.at<float>(0, 1) = NAN;
-  frame.depth.at<float>(0, 2) = 99;
+  frame.depth.at<float>(0, 2) = -1;
   Camera camera{kIntrinsics};
   camera.world_to_camera.translation() = Eigen::Vector3d(0, 0, 1);
   const SpawnSettings settings;
-  const GaussianCloud cloud = spawn_gaussians(frame, camera, nullptr, settings, 5);
+  const GaussianCloud cloud = spawn_gaussians(frame, camera, nullptr, settings);
   REQUIRE(cloud.size() == 45);
   CHECK(cloud.means[0].isApprox(Eigen::Vector3f(2 * (3 - 3.5f) / 10, 2 * (0 - 2.5f) / 10, 1)));
   CHECK(std::exp(cloud.log_scales[0].x()) == doctest::Approx(0.2));
@@ -43,7 +43,7 @@ TEST_CASE("the first frame spawns one Gaussian per valid pixel, where the pixel 
   CHECK(0.5 + 0.28209479177387814 * cloud.sh[0] == doctest::Approx(1));
   CHECK(0.5 + 0.28209479177387814 * cloud.sh[2] == doctest::Approx(0));
   CHECK(cloud.sh.size() == 135);
-  const GaussianCloud brighter = spawn_gaussians(frame, camera, nullptr, settings, 5, {0.5f, 1.5f, 1});
+  const GaussianCloud brighter = spawn_gaussians(frame, camera, nullptr, settings, {0.5f, 1.5f, 1});
   CHECK(0.5 + 0.28209479177387814 * brighter.sh[0] == doctest::Approx(0.5));
   CHECK(0.5 + 0.28209479177387814 * brighter.sh[1] == doctest::Approx(1.5 * 128 / 255));
 }
@@ -52,19 +52,19 @@ TEST_CASE("later frames spawn where the map is thin or lies far behind") {
   const Camera camera{kIntrinsics};
   const SpawnSettings settings;
   RenderImages images = rendered(2.001f);
-  CHECK(spawn_gaussians(wall(2), camera, &images, settings, 5).size() == 0);
+  CHECK(spawn_gaussians(wall(2), camera, &images, settings).size() == 0);
   images.opacity[7] = 0.4f;
-  CHECK(spawn_gaussians(wall(2), camera, &images, settings, 5).size() == 1);
+  CHECK(spawn_gaussians(wall(2), camera, &images, settings).size() == 1);
   // The median error is 1 mm: what lies more than 5 cm in front of the map is a new surface, what lies behind
   // is not.
   Frame frame = wall(2);
   frame.depth.at<float>(3, 3) = 1.9f;
   frame.depth.at<float>(3, 4) = 1.99f;
   frame.depth.at<float>(3, 5) = 3.0f;
-  CHECK(spawn_gaussians(frame, camera, &images, settings, 5).size() == 2);
+  CHECK(spawn_gaussians(frame, camera, &images, settings).size() == 2);
   SpawnSettings never = settings;
   never.front_factor = 0;
-  CHECK(spawn_gaussians(frame, camera, &images, never, 5).size() == 1);
+  CHECK(spawn_gaussians(frame, camera, &images, never).size() == 1);
 }
 
 TEST_CASE(
@@ -85,7 +85,7 @@ TEST_CASE(
       Eigen::AngleAxisd(0.7, Eigen::Vector3d(1, 2, 3).normalized()).toRotationMatrix();
   SpawnSettings settings;
   settings.thickness = 0.1;
-  const GaussianCloud cloud = spawn_gaussians(frame, camera, nullptr, settings, 5);
+  const GaussianCloud cloud = spawn_gaussians(frame, camera, nullptr, settings);
   REQUIRE(cloud.size() == 192);
   const int i = 7 * 16 + 11;
   const Eigen::Vector4f& q = cloud.rotations[i];
@@ -102,13 +102,13 @@ TEST_CASE(
   CHECK(std::abs(axes.col(0).dot(ray)) < 1e-3);
 
   settings.thickness = 1;
-  CHECK(spawn_gaussians(frame, camera, nullptr, settings, 5).log_scales[i] ==
+  CHECK(spawn_gaussians(frame, camera, nullptr, settings).log_scales[i] ==
         Eigen::Vector3f::Constant(cloud.log_scales[i].x()));
   // Alone among pixels without depth, nothing is known of the surface.
   Frame dot{.colour = frame.colour, .depth = cv::Mat(12, 16, CV_32FC1, cv::Scalar(0))};
   dot.depth.at<float>(2, 5) = 2;
   settings.thickness = 0.1;
-  const GaussianCloud alone = spawn_gaussians(dot, camera, nullptr, settings, 5);
+  const GaussianCloud alone = spawn_gaussians(dot, camera, nullptr, settings);
   REQUIRE(alone.size() == 1);
   CHECK(alone.log_scales[0].z() == alone.log_scales[0].x());
 }

@@ -45,22 +45,26 @@ TEST_CASE("intrinsics of another image size, a centre outside, swapped numbers: 
 }
 
 TEST_CASE("depths of a room are plausible, those of a wrong unit are not, and the likely one is named") {
-  CHECK(all(implausible(room(1), 0.001, 5)) == "");
-  CHECK(all(implausible(room(0.2), 0.001, 5)) == "");  // a table seen from near
-  const std::string small = all(implausible(room(0.02), 1.0 / 50000, 5));
+  CHECK(all(implausible(room(1), 0.001, {})) == "");
+  CHECK(all(implausible(room(0.2), 0.001, {})) == "");  // a table seen from near
+  const std::string small = all(implausible(room(0.02), 1.0 / 50000, {}));
   CHECK(contains(small,
                  "half of the depths are nearer than 0.036 m, 1 to 99 % of the depths are 0.012 to 0.084 m"));
   CHECK(contains(small, "depth_unit is 1/50000 m; do the files use 1/1000"));
-  CHECK(contains(all(implausible(room(50), 0.05, 5)), "farther than 90 m"));
+  CHECK(contains(all(implausible(room(50), 0.05, {})), "farther than 90 m"));
   DepthRange far = room(5);
   far.beyond = 0.8;
-  CHECK(contains(all(implausible(far, 0.005, 5)), "80 % of the depths lie beyond depth_max, 5 m"));
+  CHECK(contains(all(implausible(far, 0.005, {5, 100})), "80 % of the depths lie beyond depth_max, 5 m"));
+  // A unit that is five times too large: a wall at 20 m that no Kinect sees.
+  CHECK(contains(all(implausible(room(5), 0.001, {})), "3 to 21 m, farther than such a sensor measures"));
+  CHECK(contains(all(implausible(room(5), 0.001, {})), "do the files use 1/5000"));
+  CHECK(all(implausible(room(5), 0.001, {0, 100})) == "");
   DepthRange empty = room(1);
   empty.holes = 0.99;
-  CHECK(contains(all(implausible(empty, 0.001, 5)), "99.0 % of the pixels have no depth"));
+  CHECK(contains(all(implausible(empty, 0.001, {})), "99.0 % of the pixels have no depth"));
   DepthRange full = room(1);
   full.far = 65.535;
-  CHECK(contains(all(implausible(full, 0.001, 10)), "65.53 m, the largest number that the images hold"));
+  CHECK(contains(all(implausible(full, 0.001, {0, 100})), "65.53 m, the largest number that the images hold"));
 }
 
 TEST_CASE("depths are counted in any range") {
@@ -78,4 +82,5 @@ TEST_CASE("depths are counted in any range") {
   CHECK(range->far == doctest::Approx(8).epsilon(0.03));
   CHECK(range->holes == doctest::Approx(0.25));
   CHECK(range->beyond == doctest::Approx(1.0 / 3));
+  CHECK(histogram.range(0)->beyond == 0);
 }

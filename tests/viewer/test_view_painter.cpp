@@ -28,8 +28,7 @@ FrameView view_of(const cv::Mat& colour, const std::vector<float>& depth) {
   return {.width = colour.cols,
           .height = colour.rows,
           .colour = colour.data,
-          .depth = depth.data(),
-          .depth_max = std::numeric_limits<float>::max()};
+          .depth = depth.data()};
 }
 
 /// The largest difference of a channel to the nearest version of a pixel.

@@ -41,11 +41,11 @@ struct InspectOptions {
   std::string json;  ///< file to write; empty: none
 };
 
-/// depth_max of a run with the built-in settings.
-double depth_max_of(const Recording& recording) {
+/// The depths that a run with the built-in settings uses, and those that there can be.
+DepthReach reach_of(const Recording& recording) {
   SlamSettings settings;
   load_settings(settings, {}, recording.format());
-  return settings.depth_max;
+  return {settings.depth_max, reach_of(settings.sensor)};
 }
 
 DatasetSurvey survey_with_progress(const Dataset& dataset, double depth_max) {
@@ -73,11 +73,11 @@ bool comparable(const DatasetSurvey& survey) {
 
 Inspection look_at(const Dataset& dataset) {
   const Recording& recording = *dataset.recording;
-  const double depth_max = depth_max_of(recording);
-  Inspection inspection{survey_with_progress(dataset, depth_max), {}, {}};
+  const DepthReach reach = reach_of(recording);
+  Inspection inspection{survey_with_progress(dataset, reach.limit), {}, {}};
   fmt::print("{}", survey_text(recording, inspection.survey));
   std::fflush(stdout);
-  inspection.verdicts = survey_verdicts(recording, dataset.truth(), inspection.survey, depth_max);
+  inspection.verdicts = survey_verdicts(recording, dataset.truth(), inspection.survey, reach);
   if (interrupted()) return inspection;
   if (comparable(inspection.survey)) {
     DatasetCheck check = check_with_progress(dataset);

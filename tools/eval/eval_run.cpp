@@ -49,7 +49,7 @@ std::optional<MapQuality> measure_images(const EvalRunOptions& options, const Ru
   assign_map(engine, run);
   QualityInput input{.frame = frames_of(recording, run.number("/dataset/scale")),
                      .views = views_of(run, recording),
-                     .depth_max = run.number("/dataset/depth_max_m"),
+                     .noise = noise_of(settings_of(run).sensor),
                      .render = [&](const Camera& camera) { return engine.render(camera); }};
   if (lpips) input.lpips = &*lpips;
   CountProgress progress("frames compared", static_cast<int>(input.views.size()));

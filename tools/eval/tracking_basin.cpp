@@ -128,7 +128,7 @@ class Basin {
     const Frame frame = resize_frame(*loaded.frame, run_.number("/dataset/scale"));
     const FrameHandle handle =
         engine_.load({frame.colour.cols, frame.colour.rows, frame.colour.ptr<uint8_t>(),
-                      frame.depth.ptr<float>(), static_cast<float>(settings_.depth_max)});
+                      frame.depth.ptr<float>(), noise_of(settings_.sensor)});
     for (const Method& method : kMethods) measure(handle, view, method);
     engine_.release(handle);
     return true;

@@ -48,7 +48,7 @@ void add_mesh(CLI::App& program, Action& action) {
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
   mesh->add_option("--depth-max", options->depth_max,
-                   "Leaves out depth beyond, metres; default: as configured for the run or the dataset")
+                   "Leaves out depth beyond, metres; default: as configured for the run")
       ->check(CLI::PositiveNumber);
   mesh->add_option("--out", options->out,
                    "File of the mesh; its ending names the format, .ply or .glb (glTF)")

@@ -38,7 +38,7 @@ struct Input {
   std::optional<RunFolder> run;
   Dataset dataset;
   std::vector<FusionView> views;
-  double depth_max = 0;  ///< metres
+  double depth_max = 0;  ///< metres; infinite: no limit
 };
 
 /// Images to fuse; `valid` is false where the frame cannot be read.
@@ -87,12 +87,8 @@ std::vector<FusionView> views_of_run(const RunFolder& run, const Recording& reco
 
 double depth_limit(const MeshOptions& options, const Input& input) {
   if (options.depth_max > 0) return options.depth_max;
-  if (input.run && input.run->number("/dataset/depth_max_m") > 0) {
-    return input.run->number("/dataset/depth_max_m");
-  }
-  SlamSettings settings;
-  load_settings(settings, RunOptions(), input.dataset.recording->format());
-  return settings.depth_max;
+  const double configured = input.run ? input.run->number("/dataset/depth_max_m") : 0;
+  return configured > 0 ? configured : std::numeric_limits<double>::infinity();
 }
 
 void check(const MeshOptions& options) {
@@ -210,8 +206,8 @@ int fuse_mesh(const MeshOptions& options) {
   const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
   if (mesh.triangles.empty()) {
     if (interrupted()) return kInterrupted;
-    throw InputError("no surface was found: no valid depth within " + fmt::format("{}", input.depth_max) +
-                     " m in any frame; is the depth scale of the dataset right?");
+    throw InputError(fmt::format("no surface was found: no valid depth{} in any frame; is the depth scale of the dataset right?",
+                     std::isfinite(input.depth_max) ? fmt::format(" within {} m", input.depth_max) : ""));
   }
   if (std::filesystem::path(options.out).extension() == ".glb") {
     write_glb(options.out, mesh);

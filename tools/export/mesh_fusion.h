@@ -19,7 +19,7 @@ struct MeshOptions {
   std::string trajectory;  ///< a TUM file, or "true" for the dataset's; empty: the run's
   TsdfSettings fusion;
   int stride = 1;        ///< takes every so many frames
-  double depth_max = 0;  ///< metres; 0: as configured for the run or the dataset
+  double depth_max = 0;  ///< metres; 0: as configured for the run
   std::string out;       ///< PLY or GLB file
   EngineOptions engine;
 };

@@ -37,14 +37,13 @@ std::string to_html(const Cell& cell) {
 /// A frame of the sensor at the size of a run, and its scale of depth.
 struct SensorImages {
   Frame frame;
-  double depth_max = 0;  ///< metres
-  cv::Mat valid;         ///< CV_8UC1, not 0 where the depth takes part
+  cv::Mat valid;  ///< CV_8UC1, not 0 where the depth takes part
   ColourScale depth_scale;
 };
 
-SensorImages prepare(const Frame& frame, double depth_max) {
-  SensorImages sensor{frame, depth_max, (frame.depth > 0) & (frame.depth <= depth_max), {}};
-  double low = 0, high = depth_max;
+SensorImages prepare(const Frame& frame) {
+  SensorImages sensor{frame, frame.depth > 0, {}};
+  double low = 0, high = 1;
   if (cv::countNonZero(sensor.valid) > 0)
     cv::minMaxLoc(frame.depth, &low, &high, nullptr, nullptr, sensor.valid);
   sensor.depth_scale = {ColourMap::Depth, low, std::max(high, low + 0.01), "m"};
@@ -95,7 +94,7 @@ void add_render(Row& row, const SensorImages& sensor, const RenderedFrame& rende
       {html_image(apply_colours(grey, all, kColourScale), "colour error", kWidestImage), "colour error"});
 
   const cv::Mat error = 100 * cv::abs(rendered.depth - sensor.frame.depth);
-  const auto mean = depth_l1(rendered.depth, sensor.frame.depth, sensor.depth_max);
+  const auto mean = depth_l1(rendered.depth, sensor.frame.depth);
   row.depth.push_back({html_image(apply_colours(rendered.depth, rendered.depth > 0, sensor.depth_scale),
                                   "rendered depth", kWidestImage),
                        name + " depth"});
@@ -149,8 +148,7 @@ class ImageBlock {
       const QualityView& view = views[*position];
       const LoadedFrame loaded = run.dataset->recording->load(frames_[k]);
       if (!loaded.frame || !view.camera.world_to_camera.matrix().allFinite()) continue;
-      SensorImages sensor = prepare(resize_frame(*loaded.frame, run.folder.number("/dataset/scale")),
-                                    run.folder.number("/dataset/depth_max_m"));
+      SensorImages sensor = prepare(resize_frame(*loaded.frame, run.folder.number("/dataset/scale")));
       if (rows_[k].colour.empty()) {
         add_sensor(rows_[k], sensor);
         scales_[k] = sensor.depth_scale;

@@ -22,6 +22,7 @@ struct FrameScores {
   double ssim = 0;
   std::optional<double> depth_l1;
   std::optional<double> lpips;
+  SpaceCounts space;
 };
 
 /// What a screen would show: displays clamp.
@@ -30,9 +31,8 @@ cv::Mat clamped(const cv::Mat& colour) {
 }
 
 /// The render with the frame's exposure instead of the map's; as it is where that cannot be told.
-cv::Mat at_exposure_of(const Frame& frame, const RenderImages& images, const cv::Mat& rendered,
-                       double depth_max) {
-  const auto gains = fit_gains(frame, images, depth_max);
+cv::Mat at_exposure_of(const Frame& frame, const RenderImages& images, const cv::Mat& rendered) {
+  const auto gains = fit_gains(frame, images);
   if (!gains) return rendered;
   cv::Mat result;
   cv::divide(rendered, cv::Scalar((*gains)[0], (*gains)[1], (*gains)[2]), result);
@@ -44,11 +44,13 @@ FrameScores score(const QualityInput& input, const Camera& camera, const Frame& 
   const cv::Mat colour(images.height, images.width, CV_32FC3, images.colour.data());
   const cv::Mat rendered = clamped(colour);
   const cv::Mat depth(images.height, images.width, CV_32FC1, images.depth_normalised.data());
+  const cv::Mat opacity(images.height, images.width, CV_32FC1, images.opacity.data());
   cv::Mat truth;
   frame.colour.convertTo(truth, CV_32FC3, 1.0 / 255);
   FrameScores scores{psnr(rendered, truth),
-                     psnr(clamped(at_exposure_of(frame, images, colour, input.depth_max)), truth),
-                     ssim(rendered, truth), depth_l1(depth, frame.depth, input.depth_max), std::nullopt};
+                     psnr(clamped(at_exposure_of(frame, images, colour)), truth),
+                     ssim(rendered, truth), depth_l1(depth, frame.depth), std::nullopt,
+                     count_space(opacity, depth, frame.depth, input.noise)};
   if (input.lpips) scores.lpips = input.lpips->distance(rendered, truth);
   return scores;
 }
@@ -63,6 +65,7 @@ class ScoreSum {
     sum_.ssim += scores.ssim;
     add(sum_.lpips, scores.lpips);
     add(sum_.depth_l1, scores.depth_l1);
+    sum_.space += scores.space;
     depth_frames_ += scores.depth_l1 ? 1 : 0;
   }
 
@@ -92,7 +95,9 @@ nlohmann::ordered_json scores_json(const ImageScores& scores) {
                {"psnr_db", number(scores.psnr)},
                {"psnr_same_exposure_db", number(scores.psnr_same_exposure)},
                {"ssim", number(scores.ssim)},
-               {"depth_l1_m", scores.depth_l1 ? Json(*scores.depth_l1) : Json(nullptr)}};
+               {"depth_l1_m", scores.depth_l1 ? Json(*scores.depth_l1) : Json(nullptr)},
+               {"floaters", scores.depth_l1 ? Json(scores.space.floaters()) : Json(nullptr)},
+               {"coverage", scores.depth_l1 ? Json(scores.space.coverage()) : Json(nullptr)}};
   if (scores.lpips) json["lpips"] = *scores.lpips;
   return json;
 }
@@ -100,7 +105,9 @@ nlohmann::ordered_json scores_json(const ImageScores& scores) {
 std::string scores_line(const char* title, const ImageScores& scores) {
   std::string text = fmt::format("{:<16} PSNR {:.2f} dB (at each frame's exposure {:.2f}), SSIM {:.4f}",
                                  title, scores.psnr, scores.psnr_same_exposure, scores.ssim);
-  if (scores.depth_l1) text += fmt::format(", depth L1 {:.2f} cm", 100 * *scores.depth_l1);
+  if (scores.depth_l1)
+    text += fmt::format(", depth L1 {:.2f} cm, floaters {:.2f} %, coverage {:.1f} %", 100 * *scores.depth_l1,
+                        100 * scores.space.floaters(), 100 * scores.space.coverage());
   if (scores.lpips) text += fmt::format(", LPIPS {:.4f}", *scores.lpips);
   return text + fmt::format("   ({} frames)\n", scores.frames);
 }

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "engine/eval/lpips.h"
+#include "engine/eval/space_metrics.h"
 #include "engine/sources/recording.h"
 #include "engine/types/render_images.h"
 
@@ -20,6 +21,7 @@ struct ImageScores {
   double ssim = 0;                 ///< up to 1
   std::optional<double> depth_l1;  ///< metres; over the frames with valid depth, if any
   std::optional<double> lpips;     ///< where a network was given
+  SpaceCounts space;               ///< sums over the frames, not means
 };
 
 /// Scores of a run's map.
@@ -40,7 +42,7 @@ struct QualityInput {
   /// The frame of an index again, at the size of the views; nullopt where it cannot be read.
   std::function<std::optional<Frame>(int index)> frame;
   std::vector<QualityView> views;
-  double depth_max = 0;                                 ///< metres
+  DepthNoise noise;                                     ///< of the sensor
   std::function<RenderImages(const Camera&)> render;    ///< of the map
   Lpips* lpips = nullptr;                               ///< none: not measured
   std::function<void(std::size_t)> progress = nullptr;  ///< told how many views are done

@@ -30,7 +30,8 @@ struct RunRecord {
   FrameSelection selection;
   std::optional<int> selected;  ///< frames that were to be fed; nullopt: nobody knew how many
   Intrinsics intrinsics;        ///< of the frames fed
-  double depth_max = 0;         ///< metres
+  double depth_max = 0;         ///< metres; 0: none
+  DepthNoise noise;             ///< of the sensor
   std::vector<SkippedFrame> skipped;
   std::vector<FrameReport> frames;  ///< those fed
   Trajectory trajectory;            ///< one pose per frame fed, of the tracked camera

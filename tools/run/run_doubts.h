@@ -8,8 +8,8 @@
 namespace surefield {
 
 /// What looks wrong about a recording before its first frame is fed, one line each: its intrinsics, and the
-/// depths of a few of the selected frames by `depth_max`, metres. Frames that cannot be read say nothing.
+/// depths of a few of the selected frames by `reach`. Frames that cannot be read say nothing.
 std::vector<std::string> find_doubts(const Recording& recording, const FrameSelection& selection,
-                                     double depth_max);
+                                     const DepthReach& reach);
 
 }  // namespace surefield

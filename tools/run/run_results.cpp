@@ -62,7 +62,7 @@ std::vector<std::size_t> compared_frames(const RunRecord& record, const FrameSou
 std::optional<MapQuality> measure_images(const RunRecord& record, const Slam& slam, const FrameSource& source,
                                          const KeptKeyframes& kept) {
   QualityInput input{
-      .frame = {}, .views = {}, .depth_max = record.depth_max, .render = [&](const Camera& camera) {
+      .frame = {}, .views = {}, .noise = record.noise, .render = [&](const Camera& camera) {
         return slam.render(camera);
       }};
   if (source.recording()) {

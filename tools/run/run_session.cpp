@@ -80,8 +80,9 @@ void warn_of_unusable(spdlog::logger& log, const RunRecord& record) {
 
 /// Says what looks wrong before the first frame; returns whether anything does.
 bool warn_of_doubts(spdlog::logger& log, const Recording& recording, const RunOptions& options,
-                    double depth_max) {
-  const auto doubts = find_doubts(recording, options.selection, depth_max);
+                    const SlamSettings& settings) {
+  const auto doubts =
+      find_doubts(recording, options.selection, {settings.depth_max, reach_of(settings.sensor)});
   for (const std::string& warning : recording.warnings()) warn(log, warning);
   for (const std::string& doubt : doubts) warn(log, doubt);
   return !doubts.empty();
@@ -138,10 +139,11 @@ int run_session(const RunOptions& asked, const RunObservers& observers) {
   FrameSelection selection = options.selection;
   selection.hopeless = static_cast<int>(kHopelessFrames);
   FrameStream stream(*dataset.recording, selection);
-  if (warn_of_doubts(results.log(), *dataset.recording, options, settings.depth_max) && options.strict)
+  if (warn_of_doubts(results.log(), *dataset.recording, options, settings) && options.strict)
     return kDoubtful;
   RunRecord record = start_record(options, stream);
   record.depth_max = settings.depth_max;
+  record.noise = noise_of(settings.sensor);
 
   const Clock::time_point start = Clock::now();
   Slam slam(settings, stream.intrinsics(), options.engine);

@@ -49,7 +49,7 @@ class ViewerObserver : public RunObserver {
     input.title = "Surefield: " + start.source.name();
     input.out = out_;
     input.depth_model = settings_.depth_model;
-    input.depth_far = settings_.depth_max;
+    if (settings_.depth_max > 0) input.depth_far = settings_.depth_max;
     input.live = &feed_;
     input.interrupted = [this] { return interrupted() && !feed_.stop_wanted(); };
     for (const char* key : kLiveSettings) input.settings.push_back(schema_.number(key));

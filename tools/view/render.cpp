@@ -153,8 +153,7 @@ void write_pictures(const RenderOptions& options, const Camera& camera, const Ch
   painter.set_sensor({.width = k.width,
                       .height = k.height,
                       .colour = colour.data,
-                      .depth = sensor_depth.data(),
-                      .depth_max = std::numeric_limits<float>::max()},
+                      .depth = sensor_depth.data()},
                      k);
   for (ViewMode mode : modes) {
     ViewSettings view = options.view;

@@ -223,8 +223,7 @@ class Filming {
     return {.width = frame.colour.cols,
             .height = frame.colour.rows,
             .colour = frame.colour.data,
-            .depth = frame.depth.ptr<float>(),
-            .depth_max = static_cast<float>(journey_.run->run.number("/dataset/depth_max_m"))};
+            .depth = frame.depth.ptr<float>()};
   }
 
   std::vector<Line> lines_at(const Station& station) const {

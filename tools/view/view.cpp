@@ -46,7 +46,7 @@ std::vector<FrameNumbers> numbers_of(const RunFolder& run) {
 void add_run_to(ViewerInput& input, const std::shared_ptr<const RunScene>& of) {
   const SlamSettings settings = settings_of(of->run);
   input.depth_model = settings.depth_model;
-  input.depth_far = settings.depth_max;
+  if (settings.depth_max > 0) input.depth_far = settings.depth_max;
   input.scene = of->scene;
   input.scene.numbers = numbers_of(of->run);
   input.scene.status = fmt::format("{}: {} frames, {} keyframes", of->run.name, of->scene.trajectory.size(),
