@@ -29,7 +29,7 @@ class FrameStore {
     std::optional<std::size_t> place;
     ImageSize size;
     uint32_t valid_pixels = 0;
-    glsl::vec4 noise{};
+    glsl::vec3 noise{};
     std::optional<PackedImages> packed;  ///< once it has left the device
   };
   struct Place {

@@ -102,8 +102,7 @@ void Mapper::record_loss(gpu::Recorder& recorder, Rasteriser& rasteriser, const 
                      .w_align = static_cast<float>(settings.weight_align),
                      .w_variance = static_cast<float>(settings.weight_variance),
                      .background = to_vec3(view.background),
-                     .gains = camera.gains,
-                     .noise = frame.noise});
+                     .gains = camera.gains});
   recorder.dispatch(sum_losses_, 1, {.loss_partials = loss_partials_, .loss = loss},
                     {.count = column_strips});
 }

@@ -19,7 +19,6 @@ void SensorFrame::reserve(const ImageSize& room) {
 void SensorFrame::assign(const FrameView& view) {
   size = {static_cast<uint32_t>(view.width), static_cast<uint32_t>(view.height)};
   valid_pixels = 0;
-  double weights = 0;
   std::vector<glsl::uint> packed(size.pixels());
   std::vector<float> metres(size.pixels(), 0.0f);
   for (uint64_t i = 0; i < size.pixels(); ++i) {
@@ -28,12 +27,10 @@ void SensorFrame::assign(const FrameView& view) {
     if (view.depth[i] > 0 && std::isfinite(view.depth[i])) {
       metres[i] = view.depth[i];
       ++valid_pixels;
-      weights += 1 / view.noise.sigma(view.depth[i]);
     }
   }
   noise = {static_cast<float>(view.noise.constant), static_cast<float>(view.noise.linear),
-           static_cast<float>(view.noise.quadratic),
-           static_cast<float>(weights > 0 ? valid_pixels / weights : 1)};
+           static_cast<float>(view.noise.quadratic)};
   colour.upload(packed);
   depth.upload(metres);
 }

@@ -11,9 +11,7 @@ struct SensorFrame {
   gpu::Array<glsl::uint> colour;  ///< R, G, B, 255 from the lowest byte up
   gpu::Array<float> depth;        ///< metres, 0 where invalid
   uint32_t valid_pixels = 0;      ///< pixels with depth
-  /// The constant, linear and quadratic part of the depth's noise, and the scale of depth_weight()
-  /// (shaders/lib/depth_noise.glsl).
-  glsl::vec4 noise{};
+  glsl::vec3 noise{};             ///< of the depth: constant, linear and quadratic part (DepthNoise)
 
   /// Without a frame yet.
   explicit SensorFrame(gpu::Device& device);

@@ -50,9 +50,7 @@ void TrackingLoss::record(gpu::Recorder& recorder, Rasteriser& rasteriser, const
                      .sensor_depth = frame.depth,
                      .residuals = residuals_,
                      .histograms = histograms_},
-                    {.pixels = pixels,
-                     .minimum_opacity = static_cast<float>(settings.minimum_opacity),
-                     .noise = frame.noise});
+                    {.pixels = pixels, .minimum_opacity = static_cast<float>(settings.minimum_opacity)});
   record_masks(recorder, pixels, settings.outlier_factor);
 }
 
@@ -72,8 +70,7 @@ void TrackingLoss::record_gradient(gpu::Recorder& recorder, Rasteriser& rasteris
                     {.pixels = pixels,
                      .weight_colour = static_cast<float>(settings.weight_colour),
                      .weight_depth = static_cast<float>(settings.weight_depth),
-                     .background = to_vec3(view.background),
-                     .noise = frame.noise});
+                     .background = to_vec3(view.background)});
 }
 
 }  // namespace surefield

@@ -1,7 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "mapping_gradient.h"
-#include "depth_noise.glsl"
 #include "ssim.glsl"
 #include "pixel_upstream.glsl"
 
@@ -50,11 +49,10 @@ void main() {
                  params.w_ssim * per_channel *
                      (blurred[o].x + 2 * image.rgb * blurred[o].xx + target * blurred[o].xy);
       sums.colour += abs(difference.r) + abs(difference.g) + abs(difference.b);
-      const float weight = depth_weight(params.noise, sensor);
-      g_depth += params.w_depth * per_valid * weight * sign(depth - sensor);
-      g.uncertainty = params.w_variance * per_valid * weight;
-      sums.depth += weight * abs(depth - sensor);
-      sums.variance += weight * geo.z;
+      g_depth += params.w_depth * per_valid * sign(depth - sensor);
+      g.uncertainty = params.w_variance * per_valid;
+      sums.depth += abs(depth - sensor);
+      sums.variance += geo.z;
     }
     if (geo.y > 0) {
       const float s = params.w_align * per_median * sign(depth - geo.y);

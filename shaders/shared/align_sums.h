@@ -10,7 +10,7 @@
   P(float, balance) /* weight of the geometric term beside the photometric one */ \
   P(uint, source)   /* whose points */                                \
   P(uint, first)    /* place of the first partial sum */                          \
-  P(vec4, noise)    /* of the depth (lib/depth_noise.glsl) */
+  P(vec3, noise)    /* of the depth (lib/depth_noise.glsl) */
 #define PASS_BINDINGS(READ, WRITE, UPDATE) \
   READ(0, AlignState, state)               \
   READ(1, AlignPoint, points)              \

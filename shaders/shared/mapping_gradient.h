@@ -5,8 +5,7 @@
 #define PASS_CONSTANTS(C) C(1, NORMALISED_DEPTH, 0) /* the depth terms use D_alpha / O */
 #define PASS_PARAMS(P)                                                                               \
   P(uint, width) P(uint, height) P(float, valid_pixels) P(float, w_colour) P(float, w_ssim)          \
-  P(float, w_depth) P(float, w_align) P(float, w_variance) P(vec3, background) P(vec3, gains)   \
-  P(vec4, noise) /* of the depth (lib/depth_noise.glsl) */
+  P(float, w_depth) P(float, w_align) P(float, w_variance) P(vec3, background) P(vec3, gains)
 #define PASS_BINDINGS(READ, WRITE, UPDATE)  \
   READ(0, vec4, colour_opacity)             \
   READ(1, vec4, geometry)                   \

@@ -2,7 +2,7 @@
 #include "splat_types.h"
 
 #define PASS sum_uncertainty
-#define PASS_PARAMS(P) P(uint, pixels) P(float, above) /* judged uncertain */ P(vec4, noise) /* lib/depth_noise.glsl */
+#define PASS_PARAMS(P) P(uint, pixels) P(float, above) /* judged uncertain */ P(vec3, noise) /* lib/depth_noise.glsl */
 #define PASS_BINDINGS(READ, WRITE, UPDATE) \
   READ(0, RenderStatus, status)            \
   READ(1, float, sensor_depth)             \

@@ -3,8 +3,7 @@
 
 #define PASS track_gradient
 #define PASS_CONSTANTS(C) C(1, NORMALISED_DEPTH, 1)
-#define PASS_PARAMS(P) P(uint, pixels) P(float, weight_colour) P(float, weight_depth) P(vec3, background) \
-  P(vec4, noise) /* lib/depth_noise.glsl */
+#define PASS_PARAMS(P) P(uint, pixels) P(float, weight_colour) P(float, weight_depth) P(vec3, background)
 #define PASS_BINDINGS(READ, WRITE, UPDATE) \
   READ(0, vec4, colour_opacity)            \
   READ(1, vec4, geometry)                  \

@@ -3,7 +3,7 @@
 
 #define PASS track_residuals
 #define PASS_CONSTANTS(C) C(1, NORMALISED_DEPTH, 1)
-#define PASS_PARAMS(P) P(uint, pixels) P(float, minimum_opacity) P(vec4, noise) /* lib/depth_noise.glsl */
+#define PASS_PARAMS(P) P(uint, pixels) P(float, minimum_opacity)
 #define PASS_BINDINGS(READ, WRITE, UPDATE)                                           \
   READ(0, vec4, colour_opacity)                                                      \
   READ(1, vec4, geometry)                                                            \

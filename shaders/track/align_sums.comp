@@ -93,7 +93,10 @@ void main() {
     const vec3 by_point = vec3(slope, -dot(slope, Y.xy) / z);
     // What the keyframe saw may be hidden by now.
     const bool shown = visible && (FROM_KEYFRAME == 0 || depth == 0 || abs(depth - Y.z) < SAME_SURFACE * Y.z);
-    const float w_colour = shown ? t_weight(off, variance_colour) : 0;
+    // A point whose depth is uncertain is uncertain along its ray, and so is the intensity that it should have.
+    const float by_depth = dot(by_point, R * unproject(k, vec2(pixel_at(i, params.width)), 1.0)) * sigma_at(params.noise, point.depth);
+    const float certainty = variance_colour / (variance_colour + by_depth * by_depth);
+    const float w_colour = shown ? certainty * t_weight(sqrt(certainty) * off, variance_colour) : 0;
     s.squares_colour += w_colour * off * off;
     s.pixels_colour += shown ? 1 : 0;
     add_residual(s, off, by_point, cross(Y, by_point), params.weight * w_colour / variance_colour);

@@ -1,7 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "track_gradient.h"
-#include "depth_noise.glsl"
 #include "pixel_upstream.glsl"
 
 // One invocation per pixel. The masks (residuals below their limits) are constants of the gradient.
@@ -16,7 +15,7 @@ void main() {
     g.colour = params.weight_colour / (3 * s.colour_pixels) *
                sign(image.rgb - unpackUnorm4x8(sensor_colour[i]).rgb);
   if (residual.y >= 0 && residual.y < limit.y) {
-    const float scale = params.weight_depth / s.depth_pixels * depth_weight(params.noise, sensor_depth[i]);
+    const float scale = params.weight_depth / s.depth_pixels;
     const float depth = NORMALISED_DEPTH == 1 ? geo.x / max(image.a, 1e-6) : geo.x;
     const float slope = scale * sign(depth - sensor_depth[i]);
     if (NORMALISED_DEPTH == 1) g.depth_normalised = slope;

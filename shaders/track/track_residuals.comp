@@ -1,7 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "track_residuals.h"
-#include "depth_noise.glsl"
 
 uint bin_of(float residual) {
   const float octave = log2(max(residual, exp2(-20.0))) + 20;
@@ -19,7 +18,7 @@ void main() {
   const vec3 off = abs(image.rgb - unpackUnorm4x8(sensor_colour[i]).rgb);
   const float depth = NORMALISED_DEPTH == 1 ? geometry[i].x / max(image.a, 1e-6) : geometry[i].x;
   const vec2 residual = vec2(covered ? (off.r + off.g + off.b) / 3 : -1.0,
-                             covered && sensor > 0 ? depth_weight(params.noise, sensor) * abs(depth - sensor) : -1.0);
+                             covered && sensor > 0 ? abs(depth - sensor) : -1.0);
   residuals[i] = residual;
   if (residual.x >= 0) atomicAdd(histograms[bin_of(residual.x)], 1);
   if (residual.y >= 0) atomicAdd(histograms[RESIDUAL_BINS + bin_of(residual.y)], 1);

@@ -143,11 +143,11 @@ MappingLoss mapping_loss(const Images& rendered, const Observation& observed, co
   MappingLoss loss;
   loss.images = ImageGradients(rendered.width, rendered.height);
   loss.log_scales.resize(gaussians.size(), Eigen::Vector3d::Zero());
-  const std::vector<uint8_t> all(rendered.opacity.size(), 1), valid = valid_depth_mask(observed);
+  const std::vector<uint8_t> valid = valid_depth_mask(observed);
 
-  loss.colour = colour_term(rendered, observed, all, settings.colour, loss.images);
+  loss.colour = colour_term(rendered, observed, valid, settings.colour, loss.images);
   const std::vector<double> target(observed.colour.begin(), observed.colour.end());
-  const Ssim similarity = ssim(rendered.width, rendered.height, rendered.colour, target);
+  const Ssim similarity = ssim(rendered.width, rendered.height, rendered.colour, target, valid);
   loss.ssim = 1 - similarity.value;
   for (std::size_t i = 0; i < target.size(); ++i)
     loss.images.colour[i] -= settings.ssim * similarity.gradient[i];

@@ -51,14 +51,17 @@ Plane product(const Plane& a, const Plane& b) {
   return result;
 }
 
-Plane channel_of(std::span<const double> image, int channel) {
+/// A channel of an image, 0 where `mask` is.
+Plane channel_of(std::span<const double> image, int channel, const Plane& mask) {
   Plane plane(image.size() / 3);
-  for (std::size_t i = 0; i < plane.size(); ++i) plane[i] = image[i * 3 + channel];
+  for (std::size_t i = 0; i < plane.size(); ++i) plane[i] = mask[i] * image[i * 3 + channel];
   return plane;
 }
 
-/// The sum of one channel's SSIM map, and its derivative with respect to the first image.
-double ssim_sum(const Plane& first, const Plane& second, int width, int height, Plane& gradient) {
+/// The sum of one channel's SSIM map over `mask`, and its derivative with respect to the first image, both of which
+/// are 0 outside of it.
+double ssim_sum(const Plane& first, const Plane& second, const Plane& mask, int width, int height,
+                Plane& gradient) {
   const Plane mean1 = filter(first, width, height), mean2 = filter(second, width, height);
   const Plane square1 = filter(product(first, first), width, height);
   const Plane square2 = filter(product(second, second), width, height);
@@ -71,34 +74,42 @@ double ssim_sum(const Plane& first, const Plane& second, int width, int height, 
     const double a = 2 * m1 * m2 + c1, b = 2 * (cross[i] - m1 * m2) + c2;
     const double c = m1 * m1 + m2 * m2 + c1, d = square1[i] - m1 * m1 + square2[i] - m2 * m2 + c2;
     const double value = a * b / (c * d);
-    sum += value;
-    g_mean1[i] = 2 * m2 * (b - a) / (c * d) - 2 * m1 * value / c + 2 * m1 * value / d;
-    g_square1[i] = -value / d;
-    g_cross[i] = 2 * a / (c * d);
+    sum += mask[i] * value;
+    g_mean1[i] = mask[i] * (2 * m2 * (b - a) / (c * d) - 2 * m1 * value / c + 2 * m1 * value / d);
+    g_square1[i] = -mask[i] * value / d;
+    g_cross[i] = mask[i] * 2 * a / (c * d);
   }
   const Plane through_mean = filter(g_mean1, width, height),
               through_square = filter(g_square1, width, height);
   const Plane through_cross = filter(g_cross, width, height);
   gradient.resize(first.size());
   for (std::size_t i = 0; i < first.size(); ++i) {
-    gradient[i] = through_mean[i] + 2 * first[i] * through_square[i] + second[i] * through_cross[i];
+    gradient[i] =
+        mask[i] * (through_mean[i] + 2 * first[i] * through_square[i] + second[i] * through_cross[i]);
   }
   return sum;
 }
 
 }  // namespace
 
-Ssim ssim(int width, int height, std::span<const double> first, std::span<const double> second) {
+Ssim ssim(int width, int height, std::span<const double> first, std::span<const double> second,
+          std::span<const uint8_t> mask) {
   if (first.size() != static_cast<std::size_t>(width) * height * 3 || second.size() != first.size()) {
     throw std::invalid_argument("ssim: image sizes differ");
   }
   Ssim result;
   result.gradient.resize(first.size());
-  const double count = static_cast<double>(first.size());
+  Plane takes_part(first.size() / 3, 1);
+  for (std::size_t i = 0; i < mask.size(); ++i) takes_part[i] = mask[i];
+  double count = 0;
+  for (double part : takes_part) count += 3 * part;
+  if (count == 0) return result;
   for (int channel = 0; channel < 3; ++channel) {
     Plane gradient;
     result.value +=
-        ssim_sum(channel_of(first, channel), channel_of(second, channel), width, height, gradient) / count;
+        ssim_sum(channel_of(first, channel, takes_part), channel_of(second, channel, takes_part), takes_part,
+                 width, height, gradient) /
+        count;
     for (std::size_t i = 0; i < gradient.size(); ++i) result.gradient[i * 3 + channel] = gradient[i] / count;
   }
   return result;

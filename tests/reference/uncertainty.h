@@ -3,6 +3,7 @@
 #include <span>
 #include <vector>
 
+#include "engine/types/depth_noise.h"
 #include "tests/reference/types.h"
 
 namespace surefield::reference {
@@ -16,8 +17,10 @@ struct DominatedPixels {
 };
 
 /// Adds the pixels of one view: `images` as render() gives them for `gaussians` and `camera`. `dominated` has
-/// one entry per Gaussian.
+/// one entry per Gaussian. Where 4 of the sensor's deviations, `noise`, are more than the error that is judged uncertain,
+/// the root of `above`, errors count as much less.
 void add_dominated_pixels(const Gaussians& gaussians, const Camera& camera, const Images& images,
-                          std::span<const float> sensor_depth, std::vector<DominatedPixels>& dominated);
+                          std::span<const float> sensor_depth, const DepthNoise& noise, double above,
+                          std::vector<DominatedPixels>& dominated);
 
 }  // namespace surefield::reference

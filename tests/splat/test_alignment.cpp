@@ -6,6 +6,7 @@
 
 #include "engine/gpu/recorder.h"
 #include "engine/splat/rasteriser.h"
+#include "engine/types/depth_noise.h"
 #include "shaders/shared/align_step.h"
 #include "shaders/shared/align_sums.h"
 #include "tests/splat/compare.h"
@@ -24,10 +25,11 @@ namespace {
 using Matrix6 = Eigen::Matrix<double, 6, 6>;
 using Vector6 = Eigen::Matrix<double, 6, 1>;
 
-constexpr double kVarianceColour = 0.01, kVarianceDepth = 4e-4;
+constexpr double kVarianceColour = 0.01, kVarianceDepth = 40;
 constexpr glsl::AlignScales kScales{static_cast<float>(kVarianceColour), static_cast<float>(kVarianceDepth)};
 constexpr double kFreedom = 5;
 constexpr double kBalance = 0.3;
+const DepthNoise kNoise{0.002, 0.001, 0.003};
 
 Eigen::Vector3d to_eigen(const glsl::vec3& v) {
   return {v.x, v.y, v.z};
@@ -71,21 +73,21 @@ Pair make_pair(int width, int height) {
   return pair;
 }
 
-/// Both residuals of one point after a further motion, where lookup happens for the pose without it: `at` is
-/// that pose's pixel.
+/// Both residuals of one point, that of depth in deviations of the sensor, after a further motion and with the point
+/// `deeper` metres down its ray; lookup happens for the pose without them.
 struct Residuals {
   bool visible = false, measured = false;
   bool hidden = false;  ///< the frame shows another surface there
   double colour = 0, depth = 0;
 };
 
-Residuals residuals_of(const Pair& p, int i, const Pose& pose, const Vector6& xi) {
+Residuals residuals_of(const Pair& p, int i, const Pose& pose, const Vector6& xi, double deeper = 0) {
   const Intrinsics& k = p.intrinsics;
   const glsl::AlignPoint& point = p.points[i];
   if (!(point.depth > 0)) return {};
   const double depth = point.depth;
-  const Eigen::Vector3d X(depth * (i % p.width - k.cx) / k.fx, depth * (i / p.width - k.cy) / k.fy, depth);
-  const Eigen::Vector3d Y0 = pose * X, Y = small_motion(xi) * Y0;
+  const Eigen::Vector3d ray((i % p.width - k.cx) / k.fx, (i / p.width - k.cy) / k.fy, 1);
+  const Eigen::Vector3d Y0 = pose * (depth * ray), Y = small_motion(xi) * (pose * ((depth + deeper) * ray));
   const double u0 = k.fx * Y0.x() / Y0.z() + k.cx, v0 = k.fy * Y0.y() / Y0.z() + k.cy;
   if (u0 < 0 || v0 < 0 || u0 >= p.width - 1 || v0 >= p.height - 1) return {};
   const int column = static_cast<int>(u0), row = static_cast<int>(v0);
@@ -102,8 +104,8 @@ Residuals residuals_of(const Pair& p, int i, const Pose& pose, const Vector6& xi
   r.measured = seen > 0 && std::abs(seen - Y0.z()) < 0.2 * Y0.z() && n.norm() > 0;
   if (!r.measured) return r;
   const Eigen::Vector3d S(seen * (column + right - k.cx) / k.fx, seen * (row + lower - k.cy) / k.fy, seen);
-  // The division by the depth is a weight, held fixed.
-  r.depth = (small_motion(xi).rotation() * pose.rotation() * n).dot(Y - S) / Y0.z();
+  // The division by the deviation is a weight, held fixed.
+  r.depth = (small_motion(xi).rotation() * pose.rotation() * n).dot(Y - S) / kNoise.sigma(Y0.z());
   return r;
 }
 
@@ -133,7 +135,12 @@ Sums reference_sums(const Pair& p, const Pose& pose, int stride, bool from_keyfr
       J_depth[k] = (more.depth - less.depth) / (2 * kStep);
     }
     if (!from_keyframe || !r.hidden) {
-      const double w = weight_of(r.colour, kVarianceColour);
+      // An uncertain depth adds to the variance of the intensity; the residual's weight and square shrink by that.
+      const Residuals more = residuals_of(p, i, pose, Vector6::Zero(), kStep);
+      const Residuals less = residuals_of(p, i, pose, Vector6::Zero(), -kStep);
+      const double by_depth = (more.colour - less.colour) / (2 * kStep) * kNoise.sigma(p.points[i].depth);
+      const double certainty = kVarianceColour / (kVarianceColour + by_depth * by_depth);
+      const double w = certainty * weight_of(std::sqrt(certainty) * r.colour, kVarianceColour);
       s.squares_colour += w * r.colour * r.colour;
       s.pixels_colour += 1;
       s.normal += w / kVarianceColour * J_colour * J_colour.transpose();
@@ -233,7 +240,9 @@ void check_sums(const SumsCase& size) {
                      .weight = 0.5f,
                      .balance = static_cast<float>(kBalance),
                      .source = size.from_keyframe ? 2u : 0u,
-                     .first = kFirst});
+                     .first = kFirst,
+                     .noise = {static_cast<float>(kNoise.constant), static_cast<float>(kNoise.linear),
+                               static_cast<float>(kNoise.quadratic)}});
   recorder.submit();
   const auto written = partial.download(kFirst + count);
   const Sums got = add_up({written.begin() + kFirst, written.end()});

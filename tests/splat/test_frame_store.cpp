@@ -25,7 +25,7 @@ struct Images {
     depth[4] = -1;
     depth[5] = 100;
   }
-  FrameView view() const { return {kWidth, kHeight, colour.data(), depth.data(), 10}; }
+  FrameView view() const { return {kWidth, kHeight, colour.data(), depth.data()}; }
 };
 
 void check_holds(FrameStore& store, FrameHandle frame, int seed) {

@@ -34,7 +34,7 @@ Observed observe(const reference::Scene& scene, Rasteriser& rasteriser, const Ga
 }
 
 FrameView view_of(const Observed& o) {
-  return {o.rendered.width, o.rendered.height, o.colour_bytes.data(), o.scene.depth.data(), 1e3f};
+  return {o.rendered.width, o.rendered.height, o.colour_bytes.data(), o.scene.depth.data()};
 }
 
 /// What the device left for the backward passes, field by field, and as the oracle's dL/d(images) has it.

@@ -45,7 +45,7 @@ TEST_CASE("Adam on the map follows the reference, for visible Gaussians alone") 
   map.assign(scene.cloud);
   std::vector<uint8_t> bytes(scene.colour.size(), 128);
   const SensorFrame frame(device, {scene.camera.intrinsics.width, scene.camera.intrinsics.height,
-                                   bytes.data(), scene.depth.data(), 10});
+                                   bytes.data(), scene.depth.data()});
   CameraVariable camera(device, scene.camera);
   MappingSettings settings;
   std::vector<ReferenceAdam> mean_adam(scene.cloud.size()), logit_adam(scene.cloud.size()),
@@ -213,7 +213,7 @@ TEST_CASE("a view without room changes nothing, and what was recorded before it 
   const auto frame_of_size = [&](int width, int height) {
     const std::vector<uint8_t> colour(3 * width * height, 100);
     const std::vector<float> depth(width * height, 2.0f);
-    return SensorFrame(device, {width, height, colour.data(), depth.data(), 10});
+    return SensorFrame(device, {width, height, colour.data(), depth.data()});
   };
   Camera small = scene.camera;
   small.intrinsics = scene.camera.intrinsics.scaled(0.05);

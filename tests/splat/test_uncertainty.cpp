@@ -20,6 +20,7 @@ using testing::wall_camera;
 
 namespace {
 
+const DepthNoise kNoise = noise_of(DepthSensor::StructuredLight);  // the default of frames
 const float kLowLogit = static_cast<float>(std::log(0.01 / 0.99));
 
 /// A view of a scene; pixels in which float and double may decide differently have no sensor depth.
@@ -43,17 +44,17 @@ struct Court {
   GaussianMap map{device};
 
   /// Adds one view; returns how often it had to be recorded.
-  int add(const Camera& camera, const std::vector<float>& depth) {
+  int add(const Camera& camera, const std::vector<float>& depth, double above) {
     const int width = camera.intrinsics.width, height = camera.intrinsics.height;
     const std::vector<uint8_t> colour(3 * depth.size(), 100);
-    const SensorFrame frame(device, {width, height, colour.data(), depth.data(), 10});
+    const SensorFrame frame(device, {width, height, colour.data(), depth.data()});
     gpu::Array<glsl::CameraState> state(device, "camera");
     const glsl::CameraState host = to_device(camera);
     state.upload(std::span(&host, 1));
     gpu::Recorder recorder(device);
     int times = 0;
     rasteriser.lists.submit(recorder, 1, [&](std::size_t) {
-      judge.record_view(recorder, rasteriser, map, frame, state);
+      judge.record_view(recorder, rasteriser, map, frame, state, {.uncertainty_above = above});
       ++times;
     });
     return times;
@@ -112,8 +113,8 @@ void compare_with_oracle(reference::Scene scene, double above) {
   std::vector<reference::DominatedPixels> dominated(scene.cloud.size());
   for (const Camera& camera : {scene.camera, moved}) {
     const JudgedView view(gaussians, camera, scene.depth);
-    court.add(view.camera, view.depth);
-    reference::add_dominated_pixels(gaussians, view.camera, view.images, view.depth, dominated);
+    court.add(view.camera, view.depth, above);
+    reference::add_dominated_pixels(gaussians, view.camera, view.images, view.depth, kNoise, above, dominated);
   }
   const uint32_t uncertain = court.verdict({.uncertainty_above = above});
   const GaussianCloud after = court.map.download();
@@ -156,7 +157,7 @@ TEST_CASE("sums of uncertainty go on beyond 32 bits, and a view without room is 
   Court court;
   court.map.assign(scene.cloud);
   court.begin();
-  CHECK(court.add(scene.camera, scene.depth) == 2);
+  CHECK(court.add(scene.camera, scene.depth, 1e3) == 2);
   const RenderImages images = court.rasteriser.render(court.map, scene.camera);
   std::vector<double> sums(court.map.size(), 0.0);
   std::vector<uint32_t> pixels(court.map.size(), 0);

@@ -38,7 +38,7 @@ struct Seen {
     for (std::size_t i = 0; i < images.opacity.size(); ++i)
       depth.push_back(images.opacity[i] < 0.95f ? 0 : images.depth_normalised[i] - nearer);
   }
-  FrameView view() const { return {width, height, colour.data(), depth.data(), 10}; }
+  FrameView view() const { return {width, height, colour.data(), depth.data()}; }
 };
 
 /// The frame that a camera sees of a map.

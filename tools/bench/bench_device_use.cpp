@@ -31,7 +31,7 @@ DeviceUse measure_device_use(const std::string& device) {
   const SyntheticRecording recording({.selector = device},
                                      {.width = kWidth, .height = kHeight, .frames = kFrames});
   SlamSettings settings;
-  settings.depth_max = 10;
+  settings.sensor = DepthSensor::Perfect;
   settings.keyframes.interval = kKeyframeInterval;
   Slam slam(settings, recording.intrinsics(), {.device = device});
   DeviceUse use{.frames = kFrames, .width = kWidth, .height = kHeight};

@@ -46,8 +46,7 @@ SensorFrame load_frame(gpu::Device& device, const BenchScene& scene) {
           {.width = scene.camera.intrinsics.width,
            .height = scene.camera.intrinsics.height,
            .colour = scene.sensor_colour.data(),
-           .depth = scene.sensor_depth.data(),
-           .depth_max = 1e4f}};
+           .depth = scene.sensor_depth.data()}};
 }
 
 GaussianMap load_map(gpu::Device& device, const GaussianCloud& cloud) {

@@ -41,7 +41,6 @@ constexpr const char* kPlacesExamples =
     "  surefield places --dataset redkitchen --vocabulary own.txt --netvlad netvlad.onnx\n";
 
 constexpr double kDepthWidth = 160;  // pixels; more tell no more about what is seen
-constexpr double kDepthMax = 10;     // metres
 constexpr int kCounts[] = {2, 5};    // keyframes that are looked up
 
 struct PlacesOptions {
@@ -109,7 +108,7 @@ void Places::add(const Frame& frame, const Camera& camera) {
   const double scale = std::min(1.0, kDepthWidth / camera.intrinsics.width);
   views.push_back(
       {{camera.intrinsics.scaled(scale), camera.world_to_camera}, resize_frame(frame, scale).depth});
-  keyframes.push_back(make_keyframe(frame, 0, camera, sample_points(frame, camera.intrinsics, kDepthMax)));
+  keyframes.push_back(make_keyframe(frame, 0, camera, sample_points(frame, camera.intrinsics)));
   shared.emplace_back();
   for (const PlaceView& view : views)
     shared.back().push_back(std::min(shared_view(views.back(), view), shared_view(view, views.back())));

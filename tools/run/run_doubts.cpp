@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "engine/sources/plausibility.h"
 
 namespace surefield {
 

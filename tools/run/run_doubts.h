@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "engine/sources/frame_stream.h"
+#include "engine/sources/plausibility.h"
 
 namespace surefield {
 
