@@ -15,9 +15,10 @@ double psnr(const cv::Mat& image, const cv::Mat& reference);
 /// the mapping loss. 1 where they are equal. Throws InputError as psnr() does.
 double ssim(const cv::Mat& image, const cv::Mat& reference);
 
-/// Mean |rendered - sensor| in metres over the pixels with valid sensor depth (positive). A pixel that the map leaves empty (rendered depth 0) counts with its whole depth, so that
-/// holes do not pay. Both are CV_32FC1 of one size, metres; nullopt where no pixel is valid. Throws
-/// InputError when the images do not match or a rendered depth that is compared is not finite.
+/// Mean |rendered - sensor| in metres over the pixels with valid sensor depth (positive). A pixel that the
+/// map leaves empty (rendered depth 0) counts with its whole depth, so that holes do not pay. Both are
+/// CV_32FC1 of one size, metres; nullopt where no pixel is valid. Throws InputError when the images do not
+/// match or a rendered depth that is compared is not finite.
 std::optional<double> depth_l1(const cv::Mat& rendered, const cv::Mat& sensor);
 
 }  // namespace surefield

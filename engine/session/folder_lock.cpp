@@ -28,7 +28,8 @@ FolderLock::~FolderLock() {
 }
 
 bool FolderLock::is_in_place() const {
-  struct stat own{}, there{};
+  struct stat own {
+  }, there{};
   return fstat(descriptor_, &own) == 0 && stat(file_.c_str(), &there) == 0 && own.st_dev == there.st_dev &&
          own.st_ino == there.st_ino;
 }

@@ -68,8 +68,7 @@ GaussianCloud spawn_gaussians(const Frame& frame, const Camera& camera, const Re
                               const SpawnSettings& settings, const Eigen::Vector3f& gains) {
   const Intrinsics& k = camera.intrinsics;
   const Pose camera_to_world = camera.world_to_camera.inverse();
-  const double margin =
-      rendered ? settings.front_factor * median_depth_error(frame, *rendered, settings) : 0;
+  const double margin = rendered ? settings.front_factor * median_depth_error(frame, *rendered, settings) : 0;
   const auto logit = static_cast<float>(std::log(settings.opacity / (1 - settings.opacity)));
   GaussianCloud cloud;
   for (int v = 0; v < k.height; ++v)
@@ -83,8 +82,7 @@ GaussianCloud spawn_gaussians(const Frame& frame, const Camera& camera, const Re
       const Eigen::Vector3d point(z * (u - k.cx) / k.fx, z * (v - k.cy) / k.fy, z);
       cloud.means.push_back((camera_to_world * point).cast<float>());
       const double radius = settings.footprint * z * 2 / (k.fx + k.fy);
-      const BirthShape shape =
-          birth_shape(point, surface_normal(frame, k, u, v), radius, settings);
+      const BirthShape shape = birth_shape(point, surface_normal(frame, k, u, v), radius, settings);
       cloud.log_scales.push_back(shape.scales.array().log().matrix().cast<float>());
       const Eigen::Quaternionf q((camera_to_world.rotation() * shape.rotation).cast<float>());
       cloud.rotations.emplace_back(q.w(), q.x(), q.y(), q.z());

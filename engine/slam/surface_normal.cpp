@@ -33,8 +33,7 @@ PlaneFit fit_around(const cv::Mat& depth, int u, int v) {
     for (int du = -kRadius; du <= kRadius; ++du) {
       if (u + du < 0 || v + dv < 0 || u + du >= depth.cols || v + dv >= depth.rows) continue;
       const float other = depth.at<float>(v + dv, u + du);
-      if (other > 0 && std::abs(other - z) < kSameSurface * z)
-        fit.add(du, dv, 1 / other);
+      if (other > 0 && std::abs(other - z) < kSameSurface * z) fit.add(du, dv, 1 / other);
     }
   return fit;
 }

@@ -22,8 +22,8 @@ class DepthHistogram {
   /// Looks at one pixel in four.
   void add(const cv::Mat& depth);
 
-  /// What was counted so far; `limit`, metres, is that of DepthRange::beyond; 0: none. Nothing where no pixel had
-  /// depth.
+  /// What was counted so far; `limit`, metres, is that of DepthRange::beyond; 0: none. Nothing where no pixel
+  /// had depth.
   std::optional<DepthRange> range(double limit) const;
 
   /// Pixels looked at.

@@ -112,9 +112,10 @@ std::vector<std::string> implausible(const DepthRange& range, double depth_unit,
                     100 * range.beyond, reach.limit, read, unit_text(depth_unit)));
   } else if (range.far > reach.reach) {
     const std::string units = likely_units(range, depth_unit);
-    findings.push_back(fmt::format(
-        "{}, farther than such a sensor measures: depth_unit is {} m{}; or say which sensor it is (key sensor)",
-        read, unit_text(depth_unit), units.empty() ? "" : "; do the files use " + units + " m?"));
+    findings.push_back(
+        fmt::format("{}, farther than such a sensor measures: depth_unit is {} m{}; or say which sensor it "
+                    "is (key sensor)",
+                    read, unit_text(depth_unit), units.empty() ? "" : "; do the files use " + units + " m?"));
   }
   if (range.holes > kMostHoles) {
     findings.push_back(fmt::format("{:.1f} % of the pixels have no depth", 100 * range.holes));

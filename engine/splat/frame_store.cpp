@@ -23,7 +23,7 @@ FrameHandle FrameStore::load(const FrameView& view) {
   place.last_use = ++uses_;
   place.frame = next_frame_;
   entries_[next_frame_] = {at, place.images.size, place.images.valid_pixels, place.images.noise,
-                          std::nullopt};
+                           std::nullopt};
   return next_frame_++;
 }
 

@@ -180,8 +180,8 @@ void GaussNewtonTracker::record_step(gpu::Recorder& recorder, const Rasteriser& 
 
 /// Records the alignment of the frame to the render: on all levels, or on the finest alone.
 void GaussNewtonTracker::record_alignment(gpu::Recorder& recorder, const Rasteriser& rasteriser,
-                                          const SensorFrame& frame, bool coarse_to_fine, std::size_t references,
-                                          const TrackingSettings& settings) {
+                                          const SensorFrame& frame, bool coarse_to_fine,
+                                          std::size_t references, const TrackingSettings& settings) {
   record_points(recorder, rasteriser, settings);
   if (coarse_to_fine)
     for (int level = kLevels - 1; level >= 0; --level)

@@ -60,8 +60,8 @@ class GaussNewtonTracker {
                     const SensorFrame& frame, const TrackingSettings& settings);
   void record_step(gpu::Recorder& recorder, const Rasteriser& rasteriser, const SensorFrame& frame, int level,
                    std::size_t references, const TrackingSettings& settings);
-  void record_alignment(gpu::Recorder& recorder, const Rasteriser& rasteriser, const SensorFrame& frame, bool coarse_to_fine,
-                        std::size_t references, const TrackingSettings& settings);
+  void record_alignment(gpu::Recorder& recorder, const Rasteriser& rasteriser, const SensorFrame& frame,
+                        bool coarse_to_fine, std::size_t references, const TrackingSettings& settings);
 
   gpu::Device& device_;
   uint32_t subgroups_;  ///< of a workgroup of align_sums: each writes a partial sum

@@ -65,10 +65,10 @@ void Mapper::record_ssim(gpu::Recorder& recorder, const Rasteriser& rasteriser, 
                      .median_count = median_count_,
                      .sensor_depth = frame.depth},
                     {.width = width, .height = height, .gains = gains});
-  recorder.dispatch(ssim_columns_, ssim_columns_.groups(column_strips),
-                    {.moments = moments_, .slopes = slopes_, .ssim_partials = ssim_partials_,
-                     .sensor_depth = frame.depth},
-                    {.width = width, .height = height});
+  recorder.dispatch(
+      ssim_columns_, ssim_columns_.groups(column_strips),
+      {.moments = moments_, .slopes = slopes_, .ssim_partials = ssim_partials_, .sensor_depth = frame.depth},
+      {.width = width, .height = height});
   recorder.dispatch(ssim_slope_rows_, ssim_slope_rows_.groups(row_strips),
                     {.slopes = slopes_, .row_slopes = row_slopes_}, {.width = width, .height = height});
 }
@@ -166,8 +166,8 @@ void Mapper::record_step(gpu::Recorder& recorder, Rasteriser& rasteriser, Gaussi
 double Mapper::read_loss(const SensorFrame& frame, const MappingSettings& settings) const {
   const glsl::LossSums s = loss.download(1)[0];
   const double valid = std::max(1u, frame.valid_pixels), medians = std::max(1.0f, s.medians);
-  const double channels = 3 * valid;
-  return settings.weight_colour * s.colour / channels + settings.weight_ssim * (1 - s.ssim / channels) +
+  const double channels = 3 * valid, dissimilarity = frame.valid_pixels > 0 ? 1 - s.ssim / channels : 0;
+  return settings.weight_colour * s.colour / channels + settings.weight_ssim * dissimilarity +
          settings.weight_depth * s.depth / valid + settings.weight_align * s.align / medians +
          settings.weight_variance * s.variance / valid;
 }

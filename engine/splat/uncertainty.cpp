@@ -20,16 +20,15 @@ void UncertaintyJudge::record_view(gpu::Recorder& recorder, Rasteriser& rasteris
                                    const MappingSettings& settings) {
   rasteriser.record_forward(recorder, map, {frame.size, camera, frame.depth}, Outputs::All);
   const auto pixels = static_cast<uint32_t>(frame.size.pixels());
-  recorder.dispatch(sum_pass_, sum_pass_.groups(pixels),
-                    {.status = rasteriser.lists.status,
-                     .sensor_depth = frame.depth,
-                     .dominators = rasteriser.dominators,
-                     .geometry = rasteriser.geometry,
-                     .splats = rasteriser.lists.splats,
-                     .sums = sums},
-                    {.pixels = pixels,
-                     .above = static_cast<float>(settings.uncertainty_above),
-                     .noise = frame.noise});
+  recorder.dispatch(
+      sum_pass_, sum_pass_.groups(pixels),
+      {.status = rasteriser.lists.status,
+       .sensor_depth = frame.depth,
+       .dominators = rasteriser.dominators,
+       .geometry = rasteriser.geometry,
+       .splats = rasteriser.lists.splats,
+       .sums = sums},
+      {.pixels = pixels, .above = static_cast<float>(settings.uncertainty_above), .noise = frame.noise});
 }
 
 void UncertaintyJudge::record_verdict(gpu::Recorder& recorder, GaussianMap& map,

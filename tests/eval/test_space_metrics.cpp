@@ -14,7 +14,8 @@ const DepthNoise kKinect = noise_of(DepthSensor::StructuredLight);
 
 }  // namespace
 
-TEST_CASE("a surface floats where the sensor saw well past it: 5 cm, or three deviations of what it measured") {
+TEST_CASE(
+    "a surface floats where the sensor saw well past it: 5 cm, or three deviations of what it measured") {
   CHECK_FALSE(sees_through(1.96, 2, kKinect));
   CHECK(sees_through(1.94, 2, kKinect));
   CHECK_FALSE(sees_through(2.5, 2, kKinect));  // behind what was measured

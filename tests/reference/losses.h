@@ -84,8 +84,8 @@ struct Ssim {
 };
 
 /// SSIM of two RGB images (row-major, 3 a pixel, in [0, 1]): per channel, 11 x 11 Gaussian window of
-/// sigma 1.5, zero padding, C1 = 0.01^2, C2 = 0.03^2, averaged over channels and the pixels of `mask`; the others are as
-/// if outside of the image. An empty mask: all pixels. 0 over none.
+/// sigma 1.5, zero padding, C1 = 0.01^2, C2 = 0.03^2, averaged over channels and the pixels of `mask`; the
+/// others are as if outside of the image. An empty mask: all pixels. 1 over none.
 Ssim ssim(int width, int height, std::span<const double> first, std::span<const double> second,
           std::span<const uint8_t> mask = {});
 

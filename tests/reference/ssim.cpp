@@ -58,8 +58,8 @@ Plane channel_of(std::span<const double> image, int channel, const Plane& mask) 
   return plane;
 }
 
-/// The sum of one channel's SSIM map over `mask`, and its derivative with respect to the first image, both of which
-/// are 0 outside of it.
+/// The sum of one channel's SSIM map over `mask`, and its derivative with respect to the first image, both of
+/// which are 0 outside of it.
 double ssim_sum(const Plane& first, const Plane& second, const Plane& mask, int width, int height,
                 Plane& gradient) {
   const Plane mean1 = filter(first, width, height), mean2 = filter(second, width, height);
@@ -103,13 +103,15 @@ Ssim ssim(int width, int height, std::span<const double> first, std::span<const 
   for (std::size_t i = 0; i < mask.size(); ++i) takes_part[i] = mask[i];
   double count = 0;
   for (double part : takes_part) count += 3 * part;
-  if (count == 0) return result;
+  if (count == 0) {
+    result.value = 1;
+    return result;
+  }
   for (int channel = 0; channel < 3; ++channel) {
     Plane gradient;
-    result.value +=
-        ssim_sum(channel_of(first, channel, takes_part), channel_of(second, channel, takes_part), takes_part,
-                 width, height, gradient) /
-        count;
+    result.value += ssim_sum(channel_of(first, channel, takes_part), channel_of(second, channel, takes_part),
+                             takes_part, width, height, gradient) /
+                    count;
     for (std::size_t i = 0; i < gradient.size(); ++i) result.gradient[i * 3 + channel] = gradient[i] / count;
   }
   return result;

@@ -11,7 +11,8 @@ void add_dominated_pixels(const Gaussians& gaussians, const Camera& camera, cons
   for (std::size_t p = 0; p < sensor_depth.size(); ++p) {
     const int32_t gaussian = images.dominator[p];
     if (gaussian < 0 || !valid_depth(sensor_depth[p])) continue;
-    const double allowed = 4 * noise.sigma(sensor_depth[p]), share = std::min(1.0, std::sqrt(above) / allowed);
+    const double allowed = 4 * noise.sigma(sensor_depth[p]),
+                 share = std::min(1.0, std::sqrt(above) / allowed);
     const double off = share * (sensor_depth[p] - (camera.world_to_camera * gaussians.means[gaussian]).z());
     dominated[gaussian].sum += images.dominator_weight[p] * off * off;
     ++dominated[gaussian].count;

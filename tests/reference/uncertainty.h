@@ -17,8 +17,8 @@ struct DominatedPixels {
 };
 
 /// Adds the pixels of one view: `images` as render() gives them for `gaussians` and `camera`. `dominated` has
-/// one entry per Gaussian. Where 4 of the sensor's deviations, `noise`, are more than the error that is judged uncertain,
-/// the root of `above`, errors count as much less.
+/// one entry per Gaussian. Where 4 of the sensor's deviations, `noise`, are more than the error that is
+/// judged uncertain, the root of `above`, errors count as much less.
 void add_dominated_pixels(const Gaussians& gaussians, const Camera& camera, const Images& images,
                           std::span<const float> sensor_depth, const DepthNoise& noise, double above,
                           std::vector<DominatedPixels>& dominated);

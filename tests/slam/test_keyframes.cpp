@@ -18,8 +18,7 @@ Keyframe keyframe(double x, double yaw = 0) {
   Pose camera_to_world = Pose::Identity();
   camera_to_world.translate(Eigen::Vector3d(x, 0, 0))
       .rotate(Eigen::AngleAxisd(yaw, Eigen::Vector3d::UnitY()));
-  return make_keyframe(frame, 0, {kIntrinsics, camera_to_world.inverse()},
-                       sample_points(frame, kIntrinsics));
+  return make_keyframe(frame, 0, {kIntrinsics, camera_to_world.inverse()}, sample_points(frame, kIntrinsics));
 }
 
 }  // namespace

@@ -64,7 +64,8 @@ TEST_CASE("depths of a room are plausible, those of a wrong unit are not, and th
   CHECK(contains(all(implausible(empty, 0.001, {})), "99.0 % of the pixels have no depth"));
   DepthRange full = room(1);
   full.far = 65.535;
-  CHECK(contains(all(implausible(full, 0.001, {0, 100})), "65.53 m, the largest number that the images hold"));
+  CHECK(
+      contains(all(implausible(full, 0.001, {0, 100})), "65.53 m, the largest number that the images hold"));
 }
 
 TEST_CASE("depths are counted in any range") {

@@ -73,8 +73,8 @@ Pair make_pair(int width, int height) {
   return pair;
 }
 
-/// Both residuals of one point, that of depth in deviations of the sensor, after a further motion and with the point
-/// `deeper` metres down its ray; lookup happens for the pose without them.
+/// Both residuals of one point, that of depth in deviations of the sensor, after a further motion and with
+/// the point `deeper` metres down its ray; lookup happens for the pose without them.
 struct Residuals {
   bool visible = false, measured = false;
   bool hidden = false;  ///< the frame shows another surface there
@@ -135,7 +135,8 @@ Sums reference_sums(const Pair& p, const Pose& pose, int stride, bool from_keyfr
       J_depth[k] = (more.depth - less.depth) / (2 * kStep);
     }
     if (!from_keyframe || !r.hidden) {
-      // An uncertain depth adds to the variance of the intensity; the residual's weight and square shrink by that.
+      // An uncertain depth adds to the variance of the intensity; the residual's weight and square shrink by
+      // that.
       const Residuals more = residuals_of(p, i, pose, Vector6::Zero(), kStep);
       const Residuals less = residuals_of(p, i, pose, Vector6::Zero(), -kStep);
       const double by_depth = (more.colour - less.colour) / (2 * kStep) * kNoise.sigma(p.points[i].depth);

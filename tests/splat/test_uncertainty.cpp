@@ -114,7 +114,8 @@ void compare_with_oracle(reference::Scene scene, double above) {
   for (const Camera& camera : {scene.camera, moved}) {
     const JudgedView view(gaussians, camera, scene.depth);
     court.add(view.camera, view.depth, above);
-    reference::add_dominated_pixels(gaussians, view.camera, view.images, view.depth, kNoise, above, dominated);
+    reference::add_dominated_pixels(gaussians, view.camera, view.images, view.depth, kNoise, above,
+                                    dominated);
   }
   const uint32_t uncertain = court.verdict({.uncertainty_above = above});
   const GaussianCloud after = court.map.download();

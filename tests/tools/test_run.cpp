@@ -75,7 +75,8 @@ TEST_CASE("a run leaves its results, and metrics of the documented schema") {
   settings.bind(schema);
   schema.load_file(folder / "out/config.yaml");
   CHECK(settings.tracking.adam.iterations == 3);
-  CHECK(settings.depth_max == 10);
+  CHECK(settings.depth_max == 0);
+  CHECK(settings.sensor == DepthSensor::Perfect);
 
   const nlohmann::json json = read_json(folder / "out/metrics.json");
   CHECK(keys(json) == std::set<std::string>{"schema", "version", "run", "status", "error", "date", "program",
@@ -98,11 +99,13 @@ TEST_CASE("a run leaves its results, and metrics of the documented schema") {
   CHECK(json["time"]["frames_per_second"].get<double>() > 0);
   CHECK(json["memory"]["device_peak_mb"].get<double>() > json["map"]["megabytes"].get<double>());
   CHECK(json["dataset"]["path"] == "synthetic");
-  CHECK(json["dataset"]["depth_max_m"] == 10);
+  CHECK(json["dataset"]["depth_max_m"] == 0);
   CHECK(json["images"]["frames"] == 3);
   CHECK(json["images"]["psnr_db"].get<double>() > 10);
   CHECK(json["images"]["ssim"].get<double>() > 0.1);
   CHECK(json["images"]["depth_l1_m"].get<double>() < 2);
+  CHECK(json["images"]["coverage"].get<double>() > 0.5);
+  CHECK(json["images"]["floaters"].get<double>() < 0.5);
   CHECK(json["images"]["held_out"]["frames"] == 1);
   CHECK(json["per_frame"].size() == 3);
   // Every key is described.
@@ -266,7 +269,7 @@ TEST_CASE("depth that no pixel has in reach is named with what was read") {
   write_replica(folder, 6);
   auto arguments = short_run(folder / "out", 6);
   arguments[2] = folder.path();
-  arguments.insert(arguments.end(), {"--assume-depth-unit", "1"});
+  arguments.insert(arguments.end(), {"--assume-depth-unit", "1", "--set", "depth_max=5"});
   const Outcome outcome = surefield_command(arguments, folder.path());
   CHECK(outcome.code == 2);
   CHECK(contains(outcome.err,

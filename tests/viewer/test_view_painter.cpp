@@ -25,10 +25,7 @@ cv::Mat noise_image(int width, int height) {
 }
 
 FrameView view_of(const cv::Mat& colour, const std::vector<float>& depth) {
-  return {.width = colour.cols,
-          .height = colour.rows,
-          .colour = colour.data,
-          .depth = depth.data()};
+  return {.width = colour.cols, .height = colour.rows, .colour = colour.data, .depth = depth.data()};
 }
 
 /// The largest difference of a channel to the nearest version of a pixel.

@@ -206,8 +206,9 @@ int fuse_mesh(const MeshOptions& options) {
   const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
   if (mesh.triangles.empty()) {
     if (interrupted()) return kInterrupted;
-    throw InputError(fmt::format("no surface was found: no valid depth{} in any frame; is the depth scale of the dataset right?",
-                     std::isfinite(input.depth_max) ? fmt::format(" within {} m", input.depth_max) : ""));
+    throw InputError(fmt::format(
+        "no surface was found: no valid depth{} in any frame; is the depth scale of the dataset right?",
+        std::isfinite(input.depth_max) ? fmt::format(" within {} m", input.depth_max) : ""));
   }
   if (std::filesystem::path(options.out).extension() == ".glb") {
     write_glb(options.out, mesh);

@@ -47,10 +47,9 @@ FrameScores score(const QualityInput& input, const Camera& camera, const Frame& 
   const cv::Mat opacity(images.height, images.width, CV_32FC1, images.opacity.data());
   cv::Mat truth;
   frame.colour.convertTo(truth, CV_32FC3, 1.0 / 255);
-  FrameScores scores{psnr(rendered, truth),
-                     psnr(clamped(at_exposure_of(frame, images, colour)), truth),
-                     ssim(rendered, truth), depth_l1(depth, frame.depth), std::nullopt,
-                     count_space(opacity, depth, frame.depth, input.noise)};
+  FrameScores scores{psnr(rendered, truth), psnr(clamped(at_exposure_of(frame, images, colour)), truth),
+                     ssim(rendered, truth), depth_l1(depth, frame.depth),
+                     std::nullopt,          count_space(opacity, depth, frame.depth, input.noise)};
   if (input.lpips) scores.lpips = input.lpips->distance(rendered, truth);
   return scores;
 }

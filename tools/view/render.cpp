@@ -150,11 +150,8 @@ void write_pictures(const RenderOptions& options, const Camera& camera, const Ch
   gpu::Device device({.selector = options.engine.device, .validate = options.engine.validate});
   ViewPainter painter(device);
   painter.assign(map.cloud, map.depth_model);
-  painter.set_sensor({.width = k.width,
-                      .height = k.height,
-                      .colour = colour.data,
-                      .depth = sensor_depth.data()},
-                     k);
+  painter.set_sensor(
+      {.width = k.width, .height = k.height, .colour = colour.data, .depth = sensor_depth.data()}, k);
   for (ViewMode mode : modes) {
     ViewSettings view = options.view;
     view.mode = mode;
