@@ -71,7 +71,8 @@ class BlockUpdate {
         translation_(view.camera.world_to_camera.translation()),
         sampler_(view, settings.truncation),
         voxel_(static_cast<float>(settings.voxel)),
-        truncation_(static_cast<float>(settings.truncation)) {}
+        truncation_(static_cast<float>(settings.truncation)),
+        noise_(view.noise) {}
 
   /// Whether some of the block may lie in the image.
   bool may_see(const Coord& origin) const {
@@ -106,7 +107,7 @@ class BlockUpdate {
   void update(const Block& block, openvdb::Index i, const DepthSample& sample, float distance) const {
     if (distance <= -truncation_) return;
     const float before = block.weight->getValue(i);
-    const float weight = weight_at(distance);
+    const float weight = weight_at(distance) * certainty_of(sample.depth);
     const float after = before + weight;
     const float share = weight / after;
     const float old_distance = block.distance->getValue(i);
@@ -124,12 +125,19 @@ class BlockUpdate {
     return std::clamp((distance + truncation_) / (truncation_ - voxel_), kLeastDropOff, 1.0f);
   }
 
+  /// 1 at a metre.
+  float certainty_of(float depth) const {
+    const double ratio = noise_.sigma(1) / noise_.sigma(depth);
+    return static_cast<float>(ratio * ratio);
+  }
+
   Intrinsics k_;
   Eigen::Matrix3d rotation_;  ///< times the voxel size
   Eigen::Vector3d translation_;
   DepthSampler sampler_;
   float voxel_;
   float truncation_;
+  DepthNoise noise_;
 };
 
 /// Makes room for the blocks that a view needs. Points are in voxels.

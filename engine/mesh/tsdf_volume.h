@@ -6,6 +6,7 @@
 
 #include "engine/formats/triangle_mesh.h"
 #include "engine/types/camera.h"
+#include "engine/types/depth_noise.h"
 
 namespace surefield {
 
@@ -18,8 +19,9 @@ struct TsdfSettings {
 /// A depth image with colours and where it was taken. Row-major, of the size of the camera's intrinsics.
 struct DepthView {
   Camera camera;
-  std::span<const float> depth;   ///< metres along camera z; invalid where not finite or not positive
-  std::span<const float> colour;  ///< RGB, 0 to 1, 3 floats a pixel; empty: grey
+  std::span<const float> depth;     ///< metres along camera z; invalid where not finite or not positive
+  std::span<const float> colour;    ///< RGB, 0 to 1, 3 floats a pixel; empty: grey
+  DepthNoise noise{.constant = 1};  ///< depths weigh 1 / sigma^2; as it is: all alike
 };
 
 /// The surface as a truncated signed distance field, averaged over depth images. It is stored only in blocks
@@ -34,9 +36,10 @@ class TsdfVolume {
   TsdfVolume& operator=(const TsdfVolume&) = delete;
 
   /// Adds a view. A voxel is compared with the depth of the pixel that it falls on, along z. Within the
-  /// truncation the difference is averaged, with a weight that falls to zero behind the surface; a voxel in
-  /// free space counts as outside, as far as there is a block for it. Throws UsageError when the
-  /// images do not have the size of the intrinsics, or hold depths too far away for the voxels to be counted.
+  /// truncation the difference is averaged, with the weight of the depth, which falls to zero behind the
+  /// surface; a voxel in free space counts as outside, as far as there is a block for it. Throws UsageError
+  /// when the images do not have the size of the intrinsics, or hold depths too far away for the voxels to be
+  /// counted.
   void integrate(const DepthView& view);
 
   /// The surface: marching cubes over the cells whose 8 corners were all observed. Empty where nothing was

@@ -165,6 +165,37 @@ TEST_CASE("noise averages out over views") {
   CHECK(worst(volume.extract(), 1.003, height_of) < 1e-3);
 }
 
+TEST_CASE("a view from near weighs more than one from far, by the sensor's noise") {
+  const DepthNoise noise = noise_of(DepthSensor::StructuredLight);
+  Camera behind{kLens};
+  behind.world_to_camera.translation().z() = 2;  // it stands two metres farther from the wall
+  const auto fused = [&](const DepthNoise& of_views) {
+    TsdfVolume volume;
+    const Images near_images = facing_wall(1.02),
+                 far_images = take_plane(behind, Eigen::Vector3d::UnitZ(), 1);
+    DepthView near = near_images.view(), far = far_images.view();
+    near.noise = far.noise = of_views;
+    volume.integrate(near);
+    volume.integrate(far);
+    return volume.extract();
+  };
+  // The mean height of what both see.
+  const auto height = [](const TriangleMesh& mesh) {
+    double sum = 0;
+    int count = 0;
+    for (const Eigen::Vector3f& v : mesh.vertices) {
+      if (v.head<2>().norm() > 0.2) continue;
+      sum += v.z();
+      ++count;
+    }
+    REQUIRE(count > 100);
+    return sum / count;
+  };
+  CHECK(height(fused({.constant = 1})) == doctest::Approx(1.01).epsilon(1e-4));
+  const double near = 1 / std::pow(noise.sigma(1.02), 2), far = 1 / std::pow(noise.sigma(3), 2);
+  CHECK(height(fused(noise)) == doctest::Approx((near * 1.02 + far) / (near + far)).epsilon(1e-4));
+}
+
 TEST_CASE("a surface that later views look through goes away") {
   TsdfVolume volume;
   volume.integrate(facing_wall(1.003).view());

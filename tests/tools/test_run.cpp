@@ -277,6 +277,18 @@ TEST_CASE("depth that no pixel has in reach is named with what was read") {
   CHECK(contains(outcome.err, "depth_unit"));
 }
 
+TEST_CASE("a run says what share of the depth its limit leaves out, and without a limit uses all") {
+  const TemporaryFolder folder;
+  auto arguments = short_run(folder / "out", 2);
+  CHECK_FALSE(contains(surefield_command(arguments, folder.path()).err, "leaves out"));
+  arguments = short_run(folder / "near", 2);
+  arguments.insert(arguments.end(), {"--set", "depth_max=2.5"});
+  const Outcome outcome = surefield_command(arguments, folder.path());
+  CHECK(outcome.code == 0);
+  CHECK(contains(outcome.err, "surefield: depth_max, 2.5 m, leaves out "));
+  CHECK(contains(outcome.err, " % of the depth\n"));
+}
+
 TEST_CASE("results of two runs that are mixed are refused") {
   const TemporaryFolder folder;
   REQUIRE(surefield_command(short_run(folder / "a", 2), folder.path()).code == 0);

@@ -38,7 +38,9 @@ struct Input {
   std::optional<RunFolder> run;
   Dataset dataset;
   std::vector<FusionView> views;
-  double depth_max = 0;  ///< metres; infinite: no limit
+  double depth_max = 0;   ///< metres; infinite: no limit
+  DepthNoise noise;       ///< of the sensor
+  double truncation = 0;  ///< of the distance field, metres
 };
 
 /// Images to fuse; `valid` is false where the frame cannot be read.
@@ -85,10 +87,26 @@ std::vector<FusionView> views_of_run(const RunFolder& run, const Recording& reco
   return views;
 }
 
-double depth_limit(const MeshOptions& options, const Input& input) {
-  if (options.depth_max > 0) return options.depth_max;
-  const double configured = input.run ? input.run->number("/dataset/depth_max_m") : 0;
-  return configured > 0 ? configured : std::numeric_limits<double>::infinity();
+SlamSettings settings_for(const Input& input) {
+  if (input.run) return settings_of(*input.run);
+  SlamSettings settings;
+  load_settings(settings, RunOptions(), input.dataset.recording->format());
+  return settings;
+}
+
+/// Says how far depth is used, and how far off it is.
+void set_reach(Input& input, const MeshOptions& options) {
+  const SlamSettings settings = settings_for(input);
+  input.noise = noise_of(settings.sensor);
+  input.depth_max = options.depth_max > 0    ? options.depth_max
+                    : settings.depth_max > 0 ? settings.depth_max
+                                             : std::numeric_limits<double>::infinity();
+  input.truncation = options.fusion.truncation;
+}
+
+/// Whether a depth tells where the surface is, within the truncation.
+bool is_certain(const Input& input, float z) {
+  return z <= input.depth_max && input.noise.sigma(z) <= input.truncation;
 }
 
 void check(const MeshOptions& options) {
@@ -117,7 +135,7 @@ Input open_input(const MeshOptions& options) {
   } else {
     input.dataset = open_dataset(options.dataset, {.format = options.format});
   }
-  input.depth_max = depth_limit(options, input);
+  set_reach(input, options);
   const Recording& recording = *input.dataset.recording;
   const bool rendered = options.source == MeshSource::Rendered;
   const double scale = rendered ? input.run->number("/dataset/scale") : 1;
@@ -135,17 +153,17 @@ Input open_input(const MeshOptions& options) {
 
 /// Depth and colour of the map. Depth is the median one: where surfaces lie behind each other, the mean falls
 /// between them.
-FusionImages rendered_images(const SplatEngine& engine, const FusionView& view, double depth_max) {
+FusionImages rendered_images(const SplatEngine& engine, const FusionView& view, const Input& input) {
   RenderImages images = engine.render(view.camera);
   for (std::size_t i = 0; i < images.depth_median.size(); ++i) {
     float& z = images.depth_median[i];
-    if (images.opacity[i] < kLeastOpacity || z > depth_max) z = 0;
+    if (images.opacity[i] < kLeastOpacity || !is_certain(input, z)) z = 0;
   }
   return {true, std::move(images.depth_median), std::move(images.colour)};
 }
 
-FusionImages sensor_images(const Recording& recording, const FusionView& view, double depth_max) {
-  const LoadedFrame loaded = recording.load(view.index);
+FusionImages sensor_images(const Input& input, const FusionView& view) {
+  const LoadedFrame loaded = input.dataset.recording->load(view.index);
   if (!loaded.frame) {
     fmt::print(stderr, "skipped: frame {}: {}\n", view.index, loaded.problem);
     return {};
@@ -155,7 +173,7 @@ FusionImages sensor_images(const Recording& recording, const FusionView& view, d
     const float* depth = loaded.frame->depth.ptr<float>(v);
     const uint8_t* colour = loaded.frame->colour.ptr<uint8_t>(v);
     for (int u = 0; u < loaded.frame->depth.cols; ++u) {
-      images.depth.push_back(depth[u] <= depth_max ? depth[u] : 0);
+      images.depth.push_back(is_certain(input, depth[u]) ? depth[u] : 0);
     }
     for (int i = 0; i < 3 * loaded.frame->colour.cols; ++i) {
       images.colour.push_back(static_cast<float>(colour[i]) / 255);
@@ -174,7 +192,7 @@ int integrate(TsdfVolume& volume, const Input& input,
     if (interrupted()) break;
     const FusionImages images = take(view);
     if (images.valid) {
-      volume.integrate({view.camera, images.depth, images.colour});
+      volume.integrate({view.camera, images.depth, images.colour, input.noise});
       ++fused;
     }
     progress.reached(++done);
@@ -184,14 +202,12 @@ int integrate(TsdfVolume& volume, const Input& input,
 
 int integrate_source(TsdfVolume& volume, const Input& input, const MeshOptions& options) {
   if (options.source == MeshSource::Sensor) {
-    return integrate(volume, input, [&](const FusionView& view) {
-      return sensor_images(*input.dataset.recording, view, input.depth_max);
-    });
+    return integrate(volume, input, [&](const FusionView& view) { return sensor_images(input, view); });
   }
   SplatEngine engine(options.engine);
   assign_map(engine, *input.run);
   return integrate(volume, input,
-                   [&](const FusionView& view) { return rendered_images(engine, view, input.depth_max); });
+                   [&](const FusionView& view) { return rendered_images(engine, view, input); });
 }
 
 }  // namespace

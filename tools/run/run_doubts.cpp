@@ -10,9 +10,8 @@ constexpr int kLookedAt = 5;  // frames, all over the selection
 
 }  // namespace
 
-std::vector<std::string> find_doubts(const Recording& recording, const FrameSelection& selection,
-                                     const DepthReach& reach) {
-  std::vector<std::string> doubts = implausible(recording.intrinsics());
+FirstLook look_first(const Recording& recording, const FrameSelection& selection, const DepthReach& reach) {
+  FirstLook look{implausible(recording.intrinsics())};
   const int available = (recording.count() - selection.start - 1) / selection.stride + 1;
   const int count = selection.frames > 0 ? std::min(selection.frames, available) : available;
   DepthHistogram depths;
@@ -23,9 +22,10 @@ std::vector<std::string> find_doubts(const Recording& recording, const FrameSele
   }
   if (const auto range = depths.range(reach.limit)) {
     const auto more = implausible(*range, recording.depth_unit(), reach);
-    doubts.insert(doubts.end(), more.begin(), more.end());
+    look.doubts.insert(look.doubts.end(), more.begin(), more.end());
+    look.beyond = range->beyond;
   }
-  return doubts;
+  return look;
 }
 
 }  // namespace surefield

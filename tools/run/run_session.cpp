@@ -78,14 +78,20 @@ void warn_of_unusable(spdlog::logger& log, const RunRecord& record) {
                         record.skipped.front().reason));
 }
 
-/// Says what looks wrong before the first frame; returns whether anything does.
+/// Says what looks wrong before the first frame, and what is left out; returns whether anything looks wrong.
 bool warn_of_doubts(spdlog::logger& log, const Recording& recording, const RunOptions& options,
                     const SlamSettings& settings) {
-  const auto doubts =
-      find_doubts(recording, options.selection, {settings.depth_max, reach_of(settings.sensor)});
+  const FirstLook look =
+      look_first(recording, options.selection, {settings.depth_max, reach_of(settings.sensor)});
   for (const std::string& warning : recording.warnings()) warn(log, warning);
-  for (const std::string& doubt : doubts) warn(log, doubt);
-  return !doubts.empty();
+  for (const std::string& doubt : look.doubts) warn(log, doubt);
+  if (look.beyond > 0) {
+    const std::string text = fmt::format("depth_max, {:g} m, leaves out {:.1f} % of the depth",
+                                         settings.depth_max, 100 * look.beyond);
+    log.info(text);
+    if (!options.quiet) say(stderr, "surefield: {}\n", text);
+  }
+  return !look.doubts.empty();
 }
 
 /// Tells the log, and unless `quiet` the user, how the run went.
