@@ -222,9 +222,12 @@ int fuse_mesh(const MeshOptions& options) {
   const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
   if (mesh.triangles.empty()) {
     if (interrupted()) return kInterrupted;
-    throw InputError(fmt::format(
-        "no surface was found: no valid depth{} in any frame; is the depth scale of the dataset right?",
-        std::isfinite(input.depth_max) ? fmt::format(" within {} m", input.depth_max) : ""));
+    throw InputError(
+        fmt::format("no surface was found: no frame has depth{} that is certain to within the truncation, "
+                    "{:g} m; is the depth "
+                    "scale of the dataset right, and which sensor it is (key sensor)?",
+                    std::isfinite(input.depth_max) ? fmt::format(" within {} m", input.depth_max) : "",
+                    input.truncation));
   }
   if (std::filesystem::path(options.out).extension() == ".glb") {
     write_glb(options.out, mesh);
