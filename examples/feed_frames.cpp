@@ -34,7 +34,7 @@ int main() try {
     const surefield::FrameReport report = slam.feed(take_frame(i, camera));
     const Eigen::Vector3d place = report.world_to_camera.inverse().translation();
     std::printf("frame %2d at %7.4f %7.4f %7.4f m%s\n", report.index, place.x(), place.y(), place.z(),
-                report.lost ? ", lost" : "");
+                report.lost() ? ", lost" : "");
   }
   slam.finish();
   std::printf("%zu Gaussians after %zu keyframes\n", slam.map().size(), slam.keyframes().size());

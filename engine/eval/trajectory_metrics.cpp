@@ -18,11 +18,11 @@ namespace {
 constexpr std::size_t kFewestPairs = 3;  // below that no alignment is determined
 constexpr double kStandsStill = 1e-9;    // of how far away positions are: their rounding
 
-/// The poses that are finite, in the order of time.
+/// The poses that are known, in the order of time.
 std::vector<StampedPose> usable_poses(const Trajectory& trajectory) {
   std::vector<StampedPose> poses;
   for (const StampedPose& pose : trajectory) {
-    if (pose.is_finite()) poses.push_back(pose);
+    if (pose.is_finite() && !pose.lost) poses.push_back(pose);
   }
   std::stable_sort(poses.begin(), poses.end(),
                    [](const StampedPose& a, const StampedPose& b) { return a.timestamp < b.timestamp; });
@@ -233,6 +233,7 @@ TrajectoryMetrics evaluate_trajectory(const Trajectory& estimate, const Trajecto
   TrajectoryMetrics metrics;
   metrics.pairs = static_cast<int>(pairs.size());
   metrics.estimates = static_cast<int>(estimate.size());
+  metrics.lost = metrics.estimates - static_cast<int>(usable_poses(estimate).size());
   if (comparison.alignment == Alignment::Similarity) {
     metrics.scale = fit_scale(pairs);
     for (PosePair& pair : pairs) pair.estimate.translation() *= metrics.scale;

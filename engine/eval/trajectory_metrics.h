@@ -43,6 +43,7 @@ struct TrajectoryComparison {
 struct TrajectoryMetrics {
   int pairs = 0;            ///< poses compared
   int estimates = 0;        ///< poses in the estimate
+  int lost = 0;             ///< of those, the ones that are not known
   ErrorStatistics ate;      ///< absolute error of the camera's position after alignment, metres
   RelativeError rpe_frame;  ///< over consecutive pairs
   /// Over one second; no motions where no two poses lie a second apart, and where all stamps are whole
@@ -54,7 +55,7 @@ struct TrajectoryMetrics {
 
 /// Pairs each estimate with the truth nearest in time, at most `max_difference` seconds away, each pose at
 /// most once: the closest stamps are paired first, as the TUM benchmark's tool does. Poses that are not
-/// finite take no part. Ordered by time.
+/// finite, and those of lost frames, take no part. Ordered by time.
 std::vector<PosePair> associate(const Trajectory& estimate, const Trajectory& truth,
                                 double max_difference = 0.02);
 

@@ -32,20 +32,33 @@ std::string read_text(const std::filesystem::path& file) {
   return text;
 }
 
-}  // namespace
-
-std::vector<TextLine> read_lines(const std::filesystem::path& file) {
-  const std::string content = read_text(file);
-  std::vector<TextLine> lines;
-  std::string_view rest = content;
+/// Calls visit(number, text) for each line, from 1, without the blanks around it.
+template <typename Visit>
+void visit_lines(std::string_view rest, Visit visit) {
   for (int number = 1; !rest.empty(); ++number) {
     const auto end = std::min(rest.find_first_of("\r\n"), rest.size());
-    const std::string_view text = trimmed(rest.substr(0, end));
-    if (!text.empty() && text.front() != '#') lines.push_back({number, std::string(text)});
+    visit(number, trimmed(rest.substr(0, end)));
     const bool two = rest.substr(end).starts_with("\r\n");
     rest.remove_prefix(std::min(end + (two ? 2 : 1), rest.size()));
   }
+}
+
+}  // namespace
+
+std::vector<TextLine> read_lines(const std::filesystem::path& file) {
+  std::vector<TextLine> lines;
+  visit_lines(read_text(file), [&](int number, std::string_view text) {
+    if (!text.empty() && text.front() != '#') lines.push_back({number, std::string(text)});
+  });
   return lines;
+}
+
+std::set<int> lines_after_comment(const std::filesystem::path& file, std::string_view comment) {
+  std::set<int> numbers;
+  visit_lines(read_text(file), [&](int number, std::string_view text) {
+    if (text == comment) numbers.insert(number + 1);
+  });
+  return numbers;
 }
 
 std::vector<TextLine> read_rows(const std::filesystem::path& file) {

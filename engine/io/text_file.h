@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <filesystem>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -23,6 +24,9 @@ std::vector<TextLine> read_lines(const std::filesystem::path& file);
 /// The same without a header row: a first line whose first field begins with a letter, where that of the
 /// second is a number.
 std::vector<TextLine> read_rows(const std::filesystem::path& file);
+
+/// The numbers of the lines that come right after a line with this comment, such as "# lost".
+std::set<int> lines_after_comment(const std::filesystem::path& file, std::string_view comment);
 
 /// The number that `text` is as a whole: decimal, with or without a sign; "nan" and "inf" are numbers.
 /// nullopt where it is anything else.

@@ -40,14 +40,21 @@ std::string format_pose(const StampedPose& pose) {
 
 Trajectory read_trajectory(const std::filesystem::path& file) {
   Trajectory trajectory;
-  for (const TextLine& line : read_lines(file)) trajectory.push_back(parse_pose(file, line));
+  const std::set<int> lost = lines_after_comment(file, kLostComment);
+  for (const TextLine& line : read_lines(file)) {
+    trajectory.push_back(parse_pose(file, line));
+    trajectory.back().lost = lost.contains(line.number);
+  }
   return trajectory;
 }
 
 void write_trajectory(const std::filesystem::path& file, const Trajectory& trajectory) {
   write_file(file, [&](std::ostream& stream) {
     stream << "# timestamp tx ty tz qx qy qz qw\n";
-    for (const StampedPose& pose : trajectory) stream << format_pose(pose);
+    for (const StampedPose& pose : trajectory) {
+      if (pose.lost) stream << kLostComment << "\n";
+      stream << format_pose(pose);
+    }
   });
 }
 

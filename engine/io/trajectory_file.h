@@ -6,6 +6,9 @@
 
 namespace surefield {
 
+/// Stands on the line before a pose that is not known, since the camera was lost.
+inline constexpr const char* kLostComment = "# lost";
+
 /// Reads a trajectory in TUM format: lines "timestamp tx ty tz qx qy qz qw", camera to world, '#' starts a
 /// comment. Quaternions are normalised. A line with NaN or infinity becomes a pose that is not finite. Throws
 /// InputError with the line number where a line cannot be read.

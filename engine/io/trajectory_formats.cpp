@@ -13,6 +13,7 @@
 #include "engine/io/number_table.h"
 #include "engine/io/pose_numbers.h"
 #include "engine/io/text_file.h"
+#include "engine/io/trajectory_file.h"
 #include "engine/io/transforms_file.h"
 #include "engine/types/error.h"
 
@@ -171,12 +172,14 @@ class TableReader {
   void push(const NumberRow& row, std::optional<double> stamp, const Eigen::Isometry3d& pose) {
     if (stamp && !std::isfinite(*stamp)) throw InputError(file_, row.line, "its time stamp is no number");
     result_.numbered = !stamp;
-    result_.poses.push_back({stamp.value_or(static_cast<double>(result_.poses.size())), pose});
+    result_.poses.push_back(
+        {stamp.value_or(static_cast<double>(result_.poses.size())), pose, lost_.contains(row.line)});
   }
 
   const Path& file_;
   const NumberTable& table_;
   std::size_t columns_;
+  const std::set<int> lost_ = lines_after_comment(file_, kLostComment);
   TrajectoryFile result_;
 };
 

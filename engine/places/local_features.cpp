@@ -24,14 +24,19 @@ cv::Mat to_grey(const cv::Mat& rgb) {
 
 }  // namespace
 
-LocalFeatures root_sift(const cv::Mat& rgb) {
+ImageFeatures find_features(const cv::Mat& rgb) {
+  const cv::Mat grey = to_grey(rgb);
   std::vector<cv::KeyPoint> points;
   cv::Mat sift;
-  cv::SIFT::create(kMostFeatures, 3, kContrast)->detectAndCompute(to_grey(rgb), cv::noArray(), points, sift);
-  LocalFeatures features(sift.rows, kFeatureSize);
+  cv::SIFT::create(kMostFeatures, 3, kContrast)->detectAndCompute(grey, cv::noArray(), points, sift);
+  ImageFeatures features{LocalFeatures(sift.rows, kFeatureSize), {}};
+  const float across = static_cast<float>(rgb.cols) / static_cast<float>(grey.cols);
+  const float down = static_cast<float>(rgb.rows) / static_cast<float>(grey.rows);
   for (int i = 0; i < sift.rows; ++i) {
     const Eigen::Map<const Eigen::RowVectorXf> histogram(sift.ptr<float>(i), kFeatureSize);
-    features.row(i) = (histogram / std::max(histogram.sum(), 1e-6f)).cwiseSqrt();
+    features.descriptors.row(i) = (histogram / std::max(histogram.sum(), 1e-6f)).cwiseSqrt();
+    const cv::Point2f& at = points[static_cast<std::size_t>(i)].pt;
+    features.pixels.emplace_back(across * (at.x + 0.5f) - 0.5f, down * (at.y + 0.5f) - 0.5f);
   }
   return features;
 }

@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <opencv2/core.hpp>
+#include <vector>
 
 namespace surefield {
 
@@ -11,10 +12,20 @@ inline constexpr int kFeatureSize = 128;
 /// Descriptors of local features, a row each.
 using LocalFeatures = Eigen::Matrix<float, Eigen::Dynamic, kFeatureSize, Eigen::RowMajor>;
 
+/// Features of an image and where they are.
+struct ImageFeatures {
+  LocalFeatures descriptors;
+  std::vector<Eigen::Vector2f> pixels;  ///< of the image as it was given
+};
+
 /// RootSIFT of the image's SIFT features (CV_8UC3, RGB): descriptors divided by their sum, and the root taken
 /// of each number, so that their scalar product is Hellinger's kernel of the histograms; rows of unit length.
 /// Images are reduced to 320 pixels width first. No rows where nothing stands out. Does not depend on the
 /// number of threads.
-LocalFeatures root_sift(const cv::Mat& rgb);
+ImageFeatures find_features(const cv::Mat& rgb);
+/// Their descriptors.
+inline LocalFeatures root_sift(const cv::Mat& rgb) {
+  return find_features(rgb).descriptors;
+}
 
 }  // namespace surefield

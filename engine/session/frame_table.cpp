@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <numbers>
 
 #include "engine/session/frame_table.h"
 
@@ -11,9 +12,33 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// A gain with the digits that mean something.
-double rounded(float gain) {
-  return std::round(gain * 1e4) / 1e4;
+/// A share or a gain with the digits that mean something.
+double rounded(double value) {
+  return std::round(value * 1e4) / 1e4;
+}
+
+const char* name_of(TrackingState state) {
+  switch (state) {
+    case TrackingState::Good:
+      return "good";
+    case TrackingState::Poor:
+      return "poor";
+    default:
+      return "lost";
+  }
+}
+
+double degrees(double radians) {
+  return radians * 180 / std::numbers::pi;
+}
+
+/// The upper triangle by rows, in one cell.
+std::string covariance_text(const PoseCovariance& covariance) {
+  std::string text;
+  for (int row = 0; row < covariance.rows(); ++row)
+    for (int column = row; column < covariance.cols(); ++column)
+      text += fmt::format("{}{:.4g}", text.empty() ? "" : " ", covariance(row, column));
+  return text;
 }
 
 }  // namespace
@@ -22,13 +47,19 @@ nlohmann::ordered_json frame_json(const FrameReport& frame) {
   return {{"index", frame.index},
           {"timestamp_s", frame.timestamp},
           {"keyframe", frame.keyframe},
-          {"lost", frame.lost},
+          {"state", name_of(frame.state)},
+          {"lost", frame.lost()},
           {"gain_red", rounded(frame.gains[0])},
           {"gain_green", rounded(frame.gains[1])},
           {"gain_blue", rounded(frame.gains[2])},
           {"retries", frame.retries},
           {"loss", frame.tracking_loss},
           {"valid_fraction", frame.valid_fraction},
+          {"explained", rounded(frame.explained)},
+          {"seen_through", rounded(frame.seen_through)},
+          {"sigma_cm", rounded(100 * position_sigma(frame.covariance))},
+          {"sigma_deg", rounded(degrees(rotation_sigma(frame.covariance)))},
+          {"covariance", covariance_text(frame.covariance)},
           {"tracking_iterations", frame.tracking_iterations},
           {"tracking_ms", frame.tracking_ms},
           {"mapping_iterations", frame.mapping_iterations},

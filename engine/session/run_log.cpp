@@ -18,10 +18,10 @@ std::string gains_of(const FrameReport& report) {
 }  // namespace
 
 void RunLog::fed(const Frame&, const Slam&, const FrameReport& report) {
-  log_.log(report.lost ? spdlog::level::warn : spdlog::level::info,
+  log_.log(report.lost() ? spdlog::level::warn : spdlog::level::info,
            "frame {}:{}{}{} loss {:.5f}, valid {:.3f}, tracking {} its {:.0f} ms, mapping {} its {:.0f} ms, "
            "{} Gaussians",
-           report.index, report.keyframe ? " keyframe," : "", report.lost ? " lost," : "", gains_of(report),
+           report.index, report.keyframe ? " keyframe," : "", report.lost() ? " lost," : "", gains_of(report),
            report.tracking_loss, report.valid_fraction, report.tracking_iterations, report.tracking_ms,
            report.mapping_iterations, report.mapping_ms, report.gaussians);
 }

@@ -1,6 +1,7 @@
 #include "engine/slam/camera_tracker.h"
 
 #include <algorithm>
+#include <numbers>
 #include <numeric>
 
 namespace surefield {
@@ -9,56 +10,106 @@ namespace {
 
 constexpr std::size_t kRecentLosses = 10;  // frames whose tracking loss is the measure of a jump
 
+// From when on a pose is not to be trusted (docs/method.md, "Knowing when it is wrong").
+constexpr double kPoorPosition = 0.02;                    // standard deviation, metres
+constexpr double kPoorRotation = std::numbers::pi / 180;  // radians
+// Of the depth that is compared, what the map has to explain; good frames have 0.75 and more.
+constexpr double kPoorExplained = 0.65, kLostExplained = 0.5;
+constexpr double kPoorOverlap = 0.5, kLostOverlap = 0.33;  // of all depth, what it has to explain
+constexpr double kPoorThrough = 0.12;                      // of all depth, what may see through the map
+
+constexpr int kFewestInliers = 15;  // features that a pose is told by
+constexpr int kMatched = 10;        // keyframes that a frame's features are compared with, the newest ones
+
 }  // namespace
 
-/// Constant velocity: the last pose moved on by the last motion.
+/// Constant velocity: the last pose moved on by the last motion. After a lost frame, the last pose that was
+/// known.
 Pose CameraTracker::predict() const {
-  const std::size_t n = history_.size();
+  std::size_t n = history_.size();
   if (n < 2) return history_.world_to_camera(n - 1);
   const Pose last = history_.world_to_camera(n - 1);
+  if (history_.report(n - 1).lost() || history_.report(n - 2).lost()) return last;
   return last * history_.world_to_camera(n - 2).inverse() * last;
 }
 
-void CameraTracker::track(FrameHandle image, const Pose& start, FrameReport& report) const {
+void CameraTracker::track(FrameHandle image, FrameFeatures& features, const Pose& start,
+                          FrameReport& report) const {
   TrackingSettings tracking = settings_.tracking;
   if (history_.size() == 1)
     tracking.adam.iterations = std::max(tracking.adam.iterations, tracking.adam.first_iterations);
   TrackingResult result = engine_.track(image, {intrinsics_, start}, tracking, keyframes_.references());
   report.tracking_iterations = result.iterations;
   report.tracking_ms = result.milliseconds;
-  if (looks_lost(result)) result = retry(image, tracking, result, report);
-  report.lost = looks_lost(result);
-  report.world_to_camera = result.world_to_camera;
+  if (state_of(result) != TrackingState::Good) result = retry(image, features, tracking, result, report);
+  report.state = state_of(result);
+  report.world_to_camera =
+      report.lost() ? history_.world_to_camera(history_.size() - 1) : result.world_to_camera;
   report.tracking_loss = result.loss;
   report.valid_fraction = result.valid_fraction;
+  report.explained = result.explained;
+  report.seen_through = result.seen_through;
+  report.covariance = covariance_of(result.evidence);
 }
 
-/// Other starting poses: no motion since the last frame, and the last keyframe's pose.
-TrackingResult CameraTracker::retry(FrameHandle image, const TrackingSettings& tracking, TrackingResult best,
+/// Other starting poses: the one that features tell, no motion since the last frame, and the last keyframe's.
+TrackingResult CameraTracker::retry(FrameHandle image, FrameFeatures& features,
+                                    const TrackingSettings& tracking, TrackingResult best,
                                     FrameReport& report) const {
   TrackingSettings patient = tracking;
   patient.adam.iterations *= 2;
   patient.gauss_newton.renders *= 2;
-  for (const Pose& start :
-       {history_.world_to_camera(history_.size() - 1), keyframes_.world_to_camera(keyframes_.newest())}) {
-    if (!looks_lost(best)) break;
+  std::vector<Pose> starts;
+  if (const auto pose = pose_by_features(features)) starts.push_back(*pose);
+  starts.push_back(history_.world_to_camera(history_.size() - 1));
+  starts.push_back(keyframes_.world_to_camera(keyframes_.newest()));
+  for (const Pose& start : starts) {
+    if (state_of(best) == TrackingState::Good) break;
     const TrackingResult other = engine_.track(image, {intrinsics_, start}, patient, keyframes_.references());
     ++report.retries;
     report.tracking_iterations += other.iterations;
     report.tracking_ms += other.milliseconds;
-    const bool enough = std::min(best.valid_fraction, other.valid_fraction) >= settings_.lost.minimum_valid;
-    const bool better = enough ? other.loss < best.loss : other.valid_fraction > best.valid_fraction;
-    if (better || !looks_lost(other)) best = other;
+    if (is_better(other, best)) best = other;
   }
   return best;
 }
 
-bool CameraTracker::looks_lost(const TrackingResult& result) const {
-  if (result.valid_fraction < settings_.lost.minimum_valid) return true;
-  if (recent_losses_.empty()) return false;
-  const double mean = std::accumulate(recent_losses_.begin(), recent_losses_.end(), 0.0) /
-                      static_cast<double>(recent_losses_.size());
-  return result.loss > settings_.lost.loss_jump * mean;
+/// By the keyframe of the last ones that most of the frame's features agree with.
+std::optional<Pose> CameraTracker::pose_by_features(FrameFeatures& features) const {
+  std::optional<Pose> pose;
+  int most = 0;
+  for (int k = keyframes_.newest(); k >= 0 && k > keyframes_.newest() - kMatched; --k) {
+    const auto match = match_rigidly(keyframes_[k].features, features.get(), noise_of(settings_.sensor),
+                                     std::max(kFewestInliers, most + 1));
+    if (!match) continue;
+    most = match->inliers;
+    pose = match->from_to * keyframes_.world_to_camera(k);
+  }
+  return pose;
+}
+
+TrackingState CameraTracker::state_of(const TrackingResult& result) const {
+  if (result.valid_fraction < settings_.lost.minimum_valid) return TrackingState::Lost;
+  if (!recent_losses_.empty()) {
+    const double mean = std::accumulate(recent_losses_.begin(), recent_losses_.end(), 0.0) /
+                        static_cast<double>(recent_losses_.size());
+    if (result.loss > settings_.lost.loss_jump * mean) return TrackingState::Lost;
+  }
+  const double share = result.explained / result.valid_fraction;
+  if (share < kLostExplained || result.explained < kLostOverlap) return TrackingState::Lost;
+  const PoseCovariance covariance = covariance_of(result.evidence);
+  const bool certain =
+      position_sigma(covariance) < kPoorPosition && rotation_sigma(covariance) < kPoorRotation;
+  const bool explained =
+      share > kPoorExplained && result.explained > kPoorOverlap && result.seen_through < kPoorThrough;
+  return certain && explained ? TrackingState::Good : TrackingState::Poor;
+}
+
+bool CameraTracker::is_better(const TrackingResult& result, const TrackingResult& other) const {
+  const TrackingState state = state_of(result), others = state_of(other);
+  if (state != others) return state < others;
+  const bool enough = std::min(result.valid_fraction, other.valid_fraction) >= settings_.lost.minimum_valid;
+  return enough ? result.loss < other.loss : result.valid_fraction > other.valid_fraction;
 }
 
 bool CameraTracker::sees_unmapped(const FrameReport& report) const {
@@ -67,7 +118,7 @@ bool CameraTracker::sees_unmapped(const FrameReport& report) const {
 }
 
 void CameraTracker::accept(const FrameReport& report) {
-  if (report.lost) return;
+  if (report.state != TrackingState::Good) return;
   if (valid_after_keyframe_ == 0) valid_after_keyframe_ = report.valid_fraction;
   recent_losses_.push_back(report.tracking_loss);
   if (recent_losses_.size() > kRecentLosses) recent_losses_.pop_front();

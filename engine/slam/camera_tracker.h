@@ -2,13 +2,14 @@
 
 #include <deque>
 
+#include "engine/slam/frame_features.h"
 #include "engine/slam/frame_history.h"
 #include "engine/slam/keyframe_graph.h"
 
 namespace surefield {
 
-/// Finds where the camera is: predicts its pose, tracks it in the map as it stands, and judges whether it is
-/// lost. Remembers how well it went of late.
+/// Finds where the camera is: predicts its pose, tracks it in the map as it stands, and judges how far the
+/// result is to be trusted. Remembers how well it went of late.
 class CameraTracker {
  public:
   /// All of them outlive the tracker; `settings` may change from frame to frame.
@@ -22,9 +23,10 @@ class CameraTracker {
 
   /// Where the next frame is thought to be, world to camera. Needs a frame before it.
   Pose predict() const;
-  /// Tracks a frame from `start`, and where that fails from other poses; fills the report's pose and what it
-  /// says of tracking. Changes nothing else.
-  void track(FrameHandle image, const Pose& start, FrameReport& report) const;
+  /// Tracks a frame from `start`, and where that fails from other poses, one of them told by its features;
+  /// fills the report's pose and what it says of tracking. The pose of a lost frame is `start`. Changes
+  /// nothing else.
+  void track(FrameHandle image, FrameFeatures& features, const Pose& start, FrameReport& report) const;
   /// Whether the map explains so much less of a frame's depth than of that of the first frame tracked after
   /// the last keyframe that there should be another.
   bool sees_unmapped(const FrameReport& report) const;
@@ -35,9 +37,11 @@ class CameraTracker {
   void begin_keyframe() { valid_after_keyframe_ = 0; }
 
  private:
-  bool looks_lost(const TrackingResult& result) const;
-  TrackingResult retry(FrameHandle image, const TrackingSettings& tracking, TrackingResult best,
-                       FrameReport& report) const;
+  TrackingState state_of(const TrackingResult& result) const;
+  bool is_better(const TrackingResult& result, const TrackingResult& other) const;
+  TrackingResult retry(FrameHandle image, FrameFeatures& features, const TrackingSettings& tracking,
+                       TrackingResult best, FrameReport& report) const;
+  std::optional<Pose> pose_by_features(FrameFeatures& features) const;
 
   SplatEngine& engine_;
   const SlamSettings& settings_;

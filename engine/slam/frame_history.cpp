@@ -28,7 +28,8 @@ Pose FrameHistory::world_to_camera(std::size_t i) const {
 Trajectory FrameHistory::trajectory() const {
   Trajectory trajectory;
   for (std::size_t i = 0; i < records_.size(); ++i)
-    trajectory.push_back({records_[i].report.timestamp, world_to_camera(i).inverse()});
+    trajectory.push_back(
+        {records_[i].report.timestamp, world_to_camera(i).inverse(), records_[i].report.lost()});
   return trajectory;
 }
 
@@ -41,7 +42,7 @@ std::vector<FrameReport> FrameHistory::reports() const {
 std::optional<Eigen::Vector3f> FrameHistory::usual_gains() const {
   std::vector<float> gains[3];
   for (const FrameRecord& record : records_)
-    for (int c = 0; c < 3 && !record.report.lost; ++c) gains[c].push_back(record.report.gains[c]);
+    for (int c = 0; c < 3 && !record.report.lost(); ++c) gains[c].push_back(record.report.gains[c]);
   if (gains[0].empty()) return std::nullopt;
   const Eigen::Vector3f usual(median(gains[0]), median(gains[1]), median(gains[2]));
   return usual == Eigen::Vector3f::Ones() ? std::nullopt : std::optional(usual);

@@ -33,6 +33,7 @@ class FrameHistory {
   std::size_t size() const { return records_.size(); }
   FrameReport& last_report() { return records_.back().report; }
   const FrameReport& last_report() const { return records_.back().report; }
+  const FrameReport& report(std::size_t i) const { return records_[i].report; }
   /// Frames since the last one that became a keyframe, the next one included.
   std::size_t next_after_keyframe() const { return records_.size() - last_keyframe_; }
 

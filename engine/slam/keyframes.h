@@ -4,6 +4,7 @@
 #include <random>
 #include <vector>
 
+#include "engine/places/rigid_match.h"
 #include "engine/slam/colour_grid.h"
 #include "engine/splat/engine.h"
 #include "engine/types/frame.h"
@@ -22,6 +23,7 @@ struct Keyframe {
   Eigen::Vector3f gains = Eigen::Vector3f::Ones();   ///< times these its colours are the map's (exposure.h)
   ColourGrid grid;                                   ///< of the image as the camera took it
   Eigen::Vector3f light = Eigen::Vector3f::Ones();   ///< times these that image's are the map's (light.h)
+  PlacedFeatures features;                           ///< of that image
 };
 
 /// A keyframe that sees `points`.

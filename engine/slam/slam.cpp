@@ -46,8 +46,9 @@ void Slam::finish() {
   Turn turn(s);
   if (s.finished) return;
   s.check_usable();
-  if (s.pending && !s.history.last_report().lost) {
+  if (s.pending && s.history.last_report().state == TrackingState::Good) {
     s.pending->sighting.descriptor = s.keyframes.describe(s.pending->frame);
+    s.pending->sighting.features = place_features(s.pending->frame, s.intrinsics);
     s.change_map(true, [&] {
       s.map_keyframe(s.pending->frame, std::move(s.pending->sighting));
       s.measure();

@@ -84,7 +84,8 @@ Sighting Slam::Implementation::sight_first(const Frame& frame, ColourGrid grid, 
   return {{engine, view_of(frame, settings)},
           sample_points(frame, intrinsics),
           keyframes.describe(frame),
-          std::move(grid)};
+          std::move(grid),
+          place_features(frame, intrinsics)};
 }
 
 Sighting Slam::Implementation::sight(const Frame& frame, ColourGrid grid, FrameReport& report) {
@@ -97,22 +98,26 @@ Sighting Slam::Implementation::sight(const Frame& frame, ColourGrid grid, FrameR
   if (before != as_it_is) report.gains = gains_now();
   std::vector<Eigen::Vector3f> points = sample_points(frame, intrinsics);
   upkeep.approach(points, predicted);
-  Sighting sighting{hold(frame, report.gains, predicted), std::move(points), {}, {}};
-  tracker.track(sighting.image.handle(), predicted, report);
+  Sighting sighting{hold(frame, report.gains, predicted), std::move(points), {}, {}, {}};
+  FrameFeatures features(frame, intrinsics);
+  tracker.track(sighting.image.handle(), features, predicted, report);
   // Exposures wander all the time; only a frame that cannot be tracked for it is corrected.
-  const Eigen::Vector3f gains = report.lost && before == as_it_is ? gains_now() : as_it_is;
+  const Eigen::Vector3f gains = report.lost() && before == as_it_is ? gains_now() : as_it_is;
   if (gains != as_it_is) {
     FrameReport other{.index = report.index, .timestamp = report.timestamp};
     other.gains = gains;
     HeldFrame image = hold(frame, gains, predicted);
-    tracker.track(image.handle(), predicted, other);
-    if (!other.lost) {
+    tracker.track(image.handle(), features, predicted, other);
+    if (!other.lost()) {
       report = other;
       sighting.image = std::move(image);
     }
   }
   report.keyframe = wants_keyframe(report);
-  if (report.keyframe) sighting.descriptor = keyframes.describe(frame);
+  if (report.keyframe) {
+    sighting.descriptor = keyframes.describe(frame);
+    sighting.features = features.get();
+  }
   sighting.grid = std::move(grid);
   return sighting;
 }
@@ -133,7 +138,7 @@ Frame Slam::Implementation::expose(const Frame& frame, const Eigen::Vector3f& ga
 }
 
 bool Slam::Implementation::wants_keyframe(const FrameReport& report) const {
-  if (report.lost) return false;
+  if (report.state != TrackingState::Good) return false;
   if (history.size() % static_cast<std::size_t>(settings.keyframes.interval) == 0) return true;
   return tracker.sees_unmapped(report) && history.next_after_keyframe() >= kKeyframeRest;
 }
@@ -185,6 +190,7 @@ Frame Slam::Implementation::add_keyframe(const Frame& frame, Sighting sighting) 
   Keyframe keyframe = make_keyframe(frame, sighting.image.keep(), camera, std::move(sighting.points));
   keyframe.grid = std::move(sighting.grid);
   keyframe.light = report.gains;
+  keyframe.features = std::move(sighting.features);
   Frame mapped = frame;
   if (report.gains != Eigen::Vector3f::Ones()) {
     if (has_saturated(apply_gains(frame.colour, report.gains), report.gains))

@@ -25,6 +25,7 @@ struct Sighting {
   std::vector<Eigen::Vector3f> points;  ///< sample_points()
   Eigen::VectorXf descriptor;           ///< of a keyframe; empty where images are not described
   ColourGrid grid;                      ///< of the image as the camera took it
+  PlacedFeatures features;              ///< of a keyframe
 };
 
 /// The last frame fed, which is no keyframe: finish() may make it one.

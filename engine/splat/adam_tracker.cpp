@@ -25,6 +25,7 @@ void AdamTracker::record_step(gpu::Recorder& recorder, const Rasteriser& rasteri
                     {.status = rasteriser.lists.status,
                      .pose_gradient = rasteriser.pose_gradient,
                      .sums = loss.sums,
+                     .histograms = loss.histograms,
                      .camera = camera_,
                      .state = state_},
                     {.rate_rotation = static_cast<float>(settings.adam.rate_rotation),
@@ -63,6 +64,8 @@ TrackingResult AdamTracker::track(Rasteriser& rasteriser, TrackingLoss& loss, co
   result.world_to_camera = pose_of(state.best_camera);
   result.loss = state.best_loss;
   result.valid_fraction = state.best_valid;
+  result.explained = state.best_explained;
+  result.seen_through = state.best_through;
   result.iterations = static_cast<int>(state.adam.steps);
   result.milliseconds =
       std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();

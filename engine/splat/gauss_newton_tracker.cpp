@@ -5,6 +5,8 @@
 #include <limits>
 #include <utility>
 
+#include "engine/splat/pose_evidence.h"
+
 namespace surefield {
 
 namespace {
@@ -15,6 +17,10 @@ constexpr int kLaterSteps = 4;
 // Of the finest level every third pixel takes part: a third of the time, and no less accurate
 // (docs/experiments.md).
 constexpr uint32_t kStrides[] = {3, 1, 1};
+// And of those every so many tell how certain the pose is.
+constexpr uint32_t kEvidenceStride = 7;
+// Parts of the evidence: each source as a whole, and its photometric term alone.
+constexpr std::size_t kParts = 2 * glsl::ALIGN_SOURCES;
 // Tracking ends when an alignment has moved the camera by less, radians and metres.
 constexpr double kStill = 3e-4;
 // Where the scales of the residuals start: intensity (0 to 1), and distance in standard deviations of depth.
@@ -56,9 +62,11 @@ GaussNewtonTracker::GaussNewtonTracker(gpu::Device& device)
       keyframe_sums_pass_(device, gpu::kWorkgroup, {.FROM_KEYFRAME = 1}),
       begin_pass_(device, device.limits().subgroup_size),
       step_pass_(device, gpu::kWorkgroup),
+      evidence_pass_(device, gpu::kWorkgroup),
       camera_(device, "tracked camera"),
       state_(device, "alignment state"),
       partial_sums_(device, "partial alignment sums"),
+      evidence_(device, "evidence of the pose", kParts),
       levels_{Level(device), Level(device), Level(device)} {}
 
 void GaussNewtonTracker::resize(gpu::Recorder& recorder, const ImageSize& size) {
@@ -72,8 +80,8 @@ void GaussNewtonTracker::resize(gpu::Recorder& recorder, const ImageSize& size) 
     recorder.reserve(level.points, now.pixels());
     now = {now.width / 2, now.height / 2};
   }
-  recorder.reserve(partial_sums_, glsl::ALIGN_SOURCES * subgroups_ *
-                                      (size.pixels() / (gpu::kWorkgroup * glsl::ALIGN_STRIP) + 1));
+  recorder.reserve(partial_sums_,
+                   kParts * subgroups_ * (size.pixels() / (gpu::kWorkgroup * glsl::ALIGN_STRIP) + 1));
 }
 
 void GaussNewtonTracker::record_halves(gpu::Recorder& recorder, gpu::Array<glsl::vec2> Level::*image) {
@@ -134,12 +142,15 @@ void GaussNewtonTracker::hold(std::size_t place, FrameHandle handle, const Senso
 void GaussNewtonTracker::record_begin(gpu::Recorder& recorder, const Rasteriser& rasteriser,
                                       const TrackingLoss& loss, const SensorFrame& frame,
                                       const TrackingSettings& settings) {
-  recorder.dispatch(
-      begin_pass_, 1,
-      {.status = rasteriser.lists.status, .camera = camera_, .sums = loss.sums, .state = state_},
-      {.weight_colour = static_cast<float>(settings.weight_colour),
-       .weight_depth = static_cast<float>(settings.weight_depth),
-       .sensor_pixels = static_cast<float>(frame.valid_pixels)});
+  recorder.dispatch(begin_pass_, 1,
+                    {.status = rasteriser.lists.status,
+                     .camera = camera_,
+                     .sums = loss.sums,
+                     .histograms = loss.histograms,
+                     .state = state_},
+                    {.weight_colour = static_cast<float>(settings.weight_colour),
+                     .weight_depth = static_cast<float>(settings.weight_depth),
+                     .sensor_pixels = static_cast<float>(frame.valid_pixels)});
 }
 
 void GaussNewtonTracker::record_step(gpu::Recorder& recorder, const Rasteriser& rasteriser,
@@ -178,6 +189,43 @@ void GaussNewtonTracker::record_step(gpu::Recorder& recorder, const Rasteriser& 
       {.count = count, .sources = 1 + static_cast<uint32_t>(references)});
 }
 
+/// Records what each source, and its photometric term alone, says of the pose that was just rendered.
+void GaussNewtonTracker::record_evidence(gpu::Recorder& recorder, const Rasteriser& rasteriser,
+                                         const SensorFrame& frame, std::size_t references,
+                                         const TrackingSettings& settings) {
+  const Level& level = levels_[0];
+  if (level.size.width < 2 || level.size.height < 2) return;  // nothing to interpolate between
+  record_points(recorder, rasteriser, settings);
+  const uint64_t samples = (level.size.pixels() + kEvidenceStride - 1) / kEvidenceStride;
+  const auto strips = static_cast<uint32_t>((samples + glsl::ALIGN_STRIP - 1) / glsl::ALIGN_STRIP);
+  const uint32_t groups = sums_pass_.groups(strips), count = groups * subgroups_;
+  passes::align_sums::Params params{.width = level.size.width,
+                                    .height = level.size.height,
+                                    .level = 0,
+                                    .strips = strips,
+                                    .stride = kEvidenceStride,
+                                    .weight = 1,
+                                    .balance = static_cast<float>(settings.gauss_newton.balance),
+                                    .source = 0,
+                                    .first = 0,
+                                    .noise = frame.noise};
+  for (uint32_t part = 0; part < 2 * (1 + references); ++part) {
+    params.source = part / 2;
+    params.first = part * count;
+    params.balance = part % 2 == 0 ? static_cast<float>(settings.gauss_newton.balance) : 0.0f;
+    params.weight = params.source == 0 ? 1.0f : static_cast<float>(settings.gauss_newton.reference_weight);
+    recorder.dispatch(
+        params.source == 0 ? sums_pass_ : keyframe_sums_pass_, groups,
+        {.state = state_,
+         .points = params.source == 0 ? level.points : level.reference_points[params.source - 1],
+         .sensor = level.sensor,
+         .partial_sums = partial_sums_},
+        params);
+  }
+  recorder.dispatch(evidence_pass_, 1, {.partial_sums = partial_sums_, .evidence = evidence_},
+                    {.count = count, .parts = 2 * (1 + static_cast<uint32_t>(references))});
+}
+
 /// Records the alignment of the frame to the render: on all levels, or on the finest alone.
 void GaussNewtonTracker::record_alignment(gpu::Recorder& recorder, const Rasteriser& rasteriser,
                                           const SensorFrame& frame, bool coarse_to_fine,
@@ -214,7 +262,10 @@ TrackingResult GaussNewtonTracker::track(Rasteriser& rasteriser, TrackingLoss& l
     rasteriser.lists.submit(recorder, 1, [&](std::size_t) {
       loss.record(recorder, rasteriser, map, view, frame, settings);
       record_begin(recorder, rasteriser, loss, frame, settings);
-      if (!last) record_alignment(recorder, rasteriser, frame, is_first, references.size(), settings);
+      if (last)
+        record_evidence(recorder, rasteriser, frame, references.size(), settings);
+      else
+        record_alignment(recorder, rasteriser, frame, is_first, references.size(), settings);
     });
     state = state_.download(1)[0];
     if (!last) ++result.iterations;
@@ -223,6 +274,12 @@ TrackingResult GaussNewtonTracker::track(Rasteriser& rasteriser, TrackingLoss& l
   result.world_to_camera = pose_of(state.best_camera);
   result.loss = state.best_loss;
   result.valid_fraction = state.best_valid;
+  result.explained = state.best_explained;
+  result.seen_through = state.best_through;
+  const bool told = frame.size.width >= 2 && frame.size.height >= 2;
+  if (told)
+    result.evidence = evidence_of(evidence_.download(2 * (1 + references.size())),
+                                  kEvidenceStride / static_cast<double>(kStrides[0]));
   result.milliseconds =
       std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
   return result;

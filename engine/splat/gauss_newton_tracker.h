@@ -6,6 +6,7 @@
 
 #include "engine/splat/tracking_loss.h"
 #include "shaders/shared/align_begin.h"
+#include "shaders/shared/align_evidence.h"
 #include "shaders/shared/align_halve.h"
 #include "shaders/shared/align_points.h"
 #include "shaders/shared/align_rendered.h"
@@ -60,6 +61,8 @@ class GaussNewtonTracker {
                     const SensorFrame& frame, const TrackingSettings& settings);
   void record_step(gpu::Recorder& recorder, const Rasteriser& rasteriser, const SensorFrame& frame, int level,
                    std::size_t references, const TrackingSettings& settings);
+  void record_evidence(gpu::Recorder& recorder, const Rasteriser& rasteriser, const SensorFrame& frame,
+                       std::size_t references, const TrackingSettings& settings);
   void record_alignment(gpu::Recorder& recorder, const Rasteriser& rasteriser, const SensorFrame& frame,
                         bool coarse_to_fine, std::size_t references, const TrackingSettings& settings);
 
@@ -74,9 +77,11 @@ class GaussNewtonTracker {
   gpu::Pass<passes::align_sums> keyframe_sums_pass_;
   gpu::Pass<passes::align_begin> begin_pass_;
   gpu::Pass<passes::align_step> step_pass_;
+  gpu::Pass<passes::align_evidence> evidence_pass_;
   gpu::Array<glsl::CameraState> camera_;
   gpu::Array<glsl::AlignState> state_;
   gpu::Array<glsl::AlignSums> partial_sums_;
+  gpu::Array<glsl::AlignSums> evidence_;
   std::array<Level, kLevels> levels_;
   std::array<std::optional<FrameHandle>, kReferences> held_;
 };

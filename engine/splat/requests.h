@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "engine/gpu/device_counters.h"
+#include "engine/splat/pose_evidence.h"
 #include "engine/splat/pose_gradient.h"
 #include "engine/types/camera.h"
 #include "engine/types/depth_noise.h"
@@ -85,6 +86,9 @@ struct TrackingResult {
   Pose world_to_camera = Pose::Identity();  ///< the pose of the lowest loss
   double loss = 0;                          ///< that loss
   double valid_fraction = 0;                ///< pixels in the depth mask, of all with sensor depth
+  double explained = 0;                     ///< pixels whose depth the map explains, of all with sensor depth
+  double seen_through = 0;  ///< pixels where the sensor sees through the map, of all with sensor depth
+  PoseEvidence evidence;
   int iterations = 0;
   double milliseconds = 0;
 };

@@ -15,20 +15,20 @@ TrackingLoss::DepthPasses::DepthPasses(gpu::Device& device, uint32_t normalised)
 
 TrackingLoss::TrackingLoss(gpu::Device& device)
     : sums(device, "tracking sums"),
+      histograms(device, "residual histograms", glsl::RESIDUAL_COUNTS),
       alpha_(device, 0),
       normalised_(device, 1),
       limits_pass_(device, gpu::kWorkgroup),
       sums_pass_(device, gpu::kWorkgroup),
       total_pass_(device, gpu::kWorkgroup),
       residuals_(device, "residuals"),
-      histograms_(device, "residual histograms", 2 * glsl::RESIDUAL_BINS),
       limits_(device, "residual limits"),
       partial_sums_(device, "partial tracking sums") {}
 
 void TrackingLoss::record_masks(gpu::Recorder& recorder, uint32_t pixels, double outlier_factor) {
   const uint32_t strips = (pixels + glsl::SUM_STRIP - 1) / glsl::SUM_STRIP;
   recorder.reserve(partial_sums_, strips);
-  recorder.dispatch(limits_pass_, 1, {.histograms = histograms_, .limits = limits_},
+  recorder.dispatch(limits_pass_, 1, {.histograms = histograms, .limits = limits_},
                     {.outlier_factor = static_cast<float>(outlier_factor)});
   recorder.dispatch(sums_pass_, sums_pass_.groups(strips),
                     {.residuals = residuals_, .limits = limits_, .partial_sums = partial_sums_},
@@ -42,15 +42,17 @@ void TrackingLoss::record(gpu::Recorder& recorder, Rasteriser& rasteriser, const
   const auto& pass = passes_of(settings.depth).residuals;
   recorder.reserve(residuals_, pixels);
   rasteriser.record_forward(recorder, map, view, Outputs::ColourDepth);
-  recorder.fill(histograms_, 2 * glsl::RESIDUAL_BINS, 0);
+  recorder.fill(histograms, glsl::RESIDUAL_COUNTS, 0);
   recorder.dispatch(pass, pass.groups(pixels),
                     {.colour_opacity = rasteriser.colour_opacity,
                      .geometry = rasteriser.geometry,
                      .sensor_colour = frame.colour,
                      .sensor_depth = frame.depth,
                      .residuals = residuals_,
-                     .histograms = histograms_},
-                    {.pixels = pixels, .minimum_opacity = static_cast<float>(settings.minimum_opacity)});
+                     .histograms = histograms},
+                    {.pixels = pixels,
+                     .minimum_opacity = static_cast<float>(settings.minimum_opacity),
+                     .noise = frame.noise});
   record_masks(recorder, pixels, settings.outlier_factor);
 }
 

@@ -29,7 +29,8 @@ class TrackingLoss {
   void record_gradient(gpu::Recorder& recorder, Rasteriser& rasteriser, const View& view,
                        const SensorFrame& frame, const TrackingSettings& settings);
 
-  gpu::Array<glsl::TrackSums> sums;  ///< of the last record()
+  gpu::Array<glsl::TrackSums> sums;   ///< of the last record()
+  gpu::Array<glsl::uint> histograms;  ///< of its residuals, and counts (RESIDUAL_EXPLAINED and after)
 
  private:
   /// The passes that depend on which depth is compared.
@@ -47,7 +48,6 @@ class TrackingLoss {
   gpu::Pass<passes::track_sums> sums_pass_;
   gpu::Pass<passes::track_total> total_pass_;
   gpu::Array<glsl::vec2> residuals_;
-  gpu::Array<glsl::uint> histograms_;
   gpu::Array<glsl::vec2> limits_;
   gpu::Array<glsl::TrackSums> partial_sums_;
 };

@@ -25,9 +25,9 @@ constexpr double kReplicaStepsPerMetre = 6553.5;
 constexpr double kTumStepsPerMetre = 5000;
 
 /// Everything that a sequence may consist of.
-constexpr std::array<const char*, 10> kOwnEntries = {
+constexpr std::array<const char*, 11> kOwnEntries = {
     "results", "traj.txt",  "cam_params.json", "rgb",       "depth",
-    "rgb.txt", "depth.txt", "groundtruth.txt", kCameraFile, "mesh.ply"};
+    "rgb.txt", "depth.txt", "groundtruth.txt", kCameraFile, "mesh.ply", "beside"};
 
 void prepare_folder(const fs::path& folder) {
   std::error_code error;
@@ -94,6 +94,7 @@ void SequenceWriter::write_settings(bool complete) const {
                                {"path", s.path},
                                {"seed", s.seed},
                                {"frames", s.frames},
+                               {"beside", s.beside},
                                {"width", s.width},
                                {"height", s.height},
                                {"sensor", s.sensor == SensorKind::Kinect ? "kinect" : "perfect"},

@@ -1,5 +1,8 @@
 #include "engine/synth/synthetic_recording.h"
 
+#include <algorithm>
+#include <cmath>
+#include <numbers>
 #include <utility>
 
 #include "engine/synth/random.h"
@@ -14,9 +17,14 @@ constexpr int kColourPoses = 9;     // in which the way of the camera during one
 constexpr int kDepthPoses = 5;      // and during one depth image that is not taken at once
 constexpr int kBlurredSamples = 8;  // of colour, a pixel
 
+// Views beside the path: how far away, metres and radians; directions that are tried, and how near nothing may stand.
+constexpr double kBeside = 0.10, kBesideTurn = 4 * std::numbers::pi / 180;
+constexpr int kDirections = 8;
+constexpr double kFree = 0.4;  // metres
+
 const SynthSettings& checked(const SynthSettings& settings) {
-  if (settings.width < 1 || settings.height < 1 || settings.frames < 1) {
-    throw InputError("synthetic sequence: width, height and frames must be at least 1");
+  if (settings.width < 1 || settings.height < 1 || settings.frames < 1 || settings.beside < 0) {
+    throw InputError("synthetic sequence: width, height and frames must be at least 1, views beside the path not negative");
   }
   return settings;
 }
@@ -33,8 +41,41 @@ SyntheticRecording::SyntheticRecording(const gpu::DeviceOptions& device, const S
   kinect_.seed = settings.seed;
   kinect_.jump_seconds = timestamp(settings.frames / 2);
   for (int i = 0; i < count(); ++i) {
-    ground_truth_.push_back({timestamp(i), path_.world_to_camera(timestamp(i)).inverse()});
+    const Pose world_to_camera =
+        settings.beside > 0 ? pose_beside(i) : path_.world_to_camera(timestamp(i));
+    ground_truth_.push_back({timestamp(i), world_to_camera.inverse()});
   }
+}
+
+Pose SyntheticRecording::true_pose(double seconds) const {
+  if (settings_.beside == 0) return path_.world_to_camera(seconds).inverse();
+  const auto i = static_cast<std::size_t>(std::lround(seconds * kFrameRate));
+  return ground_truth_[std::min(i, ground_truth_.size() - 1)].camera_to_world;
+}
+
+/// Moved to one side and turned towards another, both in the image plane, world to camera: the first of some
+/// directions in which nothing stands in the way, else the one with the most room.
+Pose SyntheticRecording::pose_beside(int i) const {
+  const double duration = settings_.frames / kFrameRate;
+  const Pose on_path = path_.world_to_camera(duration * (i + 0.5) / settings_.beside);
+  Pose roomiest = on_path;
+  double most = -1;
+  for (int n = 0; n < kDirections && most < kFree; ++n) {
+    RandomStream random(hash_key(settings_.seed, static_cast<uint32_t>(kDirections * i + n)));
+    const auto direction = [&] {
+      const double angle = random.uniform(0, 2 * std::numbers::pi);
+      return Eigen::Vector3d(std::cos(angle), std::sin(angle), 0);
+    };
+    const Pose aside = Eigen::Translation3d(kBeside * direction()) * on_path;
+    const Pose pose = Eigen::AngleAxisd(kBesideTurn, direction()) * aside;
+    const cv::Mat depth = renderer_.render(Camera{intrinsics(), pose}).depth;
+    double nearest = 0;
+    cv::minMaxLoc(depth, &nearest);
+    if (nearest <= most) continue;
+    most = nearest;
+    roomiest = pose;
+  }
+  return roomiest;
 }
 
 Intrinsics SyntheticRecording::intrinsics() const {
@@ -48,7 +89,7 @@ Intrinsics SyntheticRecording::intrinsics() const {
 }
 
 double SyntheticRecording::colour_timestamp(int i) const {
-  return timestamp(i) + (settings_.sensor == SensorKind::Kinect ? kinect_.colour_delay : 0);
+  return timestamp(i) + (is_kinect() ? kinect_.colour_delay : 0);
 }
 
 /// So many poses, evenly spaced over a time, with `middle` in its middle.
@@ -64,9 +105,9 @@ std::vector<Pose> SyntheticRecording::poses_around(double middle, double span, i
 Exposure SyntheticRecording::exposure_of(int i) const {
   Exposure exposure;
   exposure.intrinsics = intrinsics();
-  exposure.depth_poses = {path_.world_to_camera(timestamp(i))};
+  exposure.depth_poses = {true_pose(timestamp(i)).inverse()};
   exposure.visitor_seconds = timestamp(i);
-  if (settings_.sensor == SensorKind::Perfect) {
+  if (!is_kinect()) {
     exposure.colour_poses = exposure.depth_poses;
     return exposure;
   }
@@ -89,7 +130,7 @@ LoadedFrame SyntheticRecording::load(int i) const {
   frame.timestamp = timestamp(i);
   frame.colour = std::move(images.colour);
   frame.depth = std::move(images.depth);
-  if (settings_.sensor == SensorKind::Kinect) {
+  if (is_kinect()) {
     kinect_.add_colour_noise(frame.colour, i);
     frame.depth = kinect_.depth(frame.depth, intrinsics(), i);
   }

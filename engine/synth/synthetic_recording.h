@@ -26,6 +26,9 @@ struct SynthSettings {
   SensorKind sensor = SensorKind::Perfect;
   KinectModel kinect;  ///< of SensorKind::Kinect; the seed is that of the sequence, a jump of its exposure in
                        ///< its middle
+  /// So many single views beside the path, in place of the frames on it: 10 cm and 4 degrees away from where
+  /// the camera is at evenly spaced times, taken by an ideal camera. 0: the frames.
+  int beside = 0;
   bool moving_object = false;  ///< somebody walks through the scene; not in its mesh
 };
 
@@ -39,7 +42,7 @@ class SyntheticRecording : public Recording {
 
   std::string name() const override { return "synthetic"; }
   std::string format() const override { return "synthetic"; }
-  int count() const override { return settings_.frames; }
+  int count() const override { return settings_.beside > 0 ? settings_.beside : settings_.frames; }
   /// Square pixels, centred, a horizontal field of view of about 61 degrees.
   Intrinsics intrinsics() const override;
   /// 1: depth is made in metres and never rounded to steps.
@@ -49,8 +52,9 @@ class SyntheticRecording : public Recording {
   double timestamp(int i) const override { return i / 30.0; }
   /// The middle of the colour image's exposure; later than timestamp() with the Kinect.
   double colour_timestamp(int i) const;
-  /// The true pose, camera to world, at any time from the first frame to the last.
-  Pose true_pose(double seconds) const { return path_.world_to_camera(seconds).inverse(); }
+  /// The true pose, camera to world, at any time from the first frame to the last; of views beside the path,
+  /// at their timestamp().
+  Pose true_pose(double seconds) const;
   LoadedFrame load(int i) const override;
   /// true_pose() at the stamps of all frames.
   const Trajectory& ground_truth() const { return ground_truth_; }
@@ -60,6 +64,8 @@ class SyntheticRecording : public Recording {
 
  private:
   std::vector<Pose> poses_around(double middle, double span, int count) const;
+  bool is_kinect() const { return settings_.sensor == SensorKind::Kinect && settings_.beside == 0; }
+  Pose pose_beside(int i) const;
   Exposure exposure_of(int i) const;
 
   SynthSettings settings_;

@@ -7,5 +7,6 @@
   READ(0, RenderStatus, status)            \
   READ(1, CameraState, camera)             \
   READ(2, TrackSums, sums)                 \
-  UPDATE(3, AlignState, state)
+  READ(3, uint, histograms) /* track_residuals.h */ \
+  UPDATE(4, AlignState, state)
 #include "declare_pass.h"

@@ -46,6 +46,8 @@ struct AlignState {
   CameraState best_camera;
   float best_loss;
   float best_valid;        // depth pixels that took part at the best pose, of those with sensor depth
+  float best_explained;    // pixels whose depth the render explains at the best pose, of those
+  float best_through;      // pixels where the sensor sees through the render, of those
 };
 
 /// Pixels that one invocation of align_sums adds up.

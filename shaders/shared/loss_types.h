@@ -48,6 +48,12 @@ SHARED_CONST uint RESIDUAL_OCTAVES = 24;
 SHARED_CONST uint RESIDUAL_BINS_PER_OCTAVE = 64;
 SHARED_CONST uint RESIDUAL_BINS = RESIDUAL_OCTAVES * RESIDUAL_BINS_PER_OCTAVE;
 
+/// After the histograms of colour and of depth: counts of pixels whose sensor depth the render explains, and of those
+/// where the sensor sees through what is rendered.
+SHARED_CONST uint RESIDUAL_EXPLAINED = 2 * RESIDUAL_BINS;
+SHARED_CONST uint RESIDUAL_THROUGH = RESIDUAL_EXPLAINED + 1;
+SHARED_CONST uint RESIDUAL_COUNTS = RESIDUAL_THROUGH + 1;
+
 /// Adam's state for a pose, in the tangent space {so(3)|T}.
 struct PoseAdam {
   PoseGradient first_moment;
@@ -61,6 +67,8 @@ struct TrackState {
   CameraState best_camera;
   float best_loss;
   float best_valid;   // depth pixels that took part at the best pose, of those with sensor depth
+  float best_explained;   // pixels whose depth the render explains at the best pose, of those
+  float best_through;     // pixels where the sensor sees through the render, of those
   float last_update;  // largest rotation (radians) or translation (metres) of the last step
 };
 

@@ -9,6 +9,7 @@
   READ(0, RenderStatus, status)            \
   READ(1, PoseGradient, pose_gradient)     \
   READ(2, TrackSums, sums)                 \
-  UPDATE(3, CameraState, camera)           \
-  UPDATE(4, TrackState, state)
+  READ(3, uint, histograms) /* track_residuals.h */ \
+  UPDATE(4, CameraState, camera)           \
+  UPDATE(5, TrackState, state)
 #include "declare_pass.h"

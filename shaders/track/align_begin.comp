@@ -12,6 +12,8 @@ void main() {
     state[0].best_loss = loss;
     state[0].best_camera = camera[0];
     state[0].best_valid = s.depth_pixels / max(params.sensor_pixels, 1);
+    state[0].best_explained = float(histograms[RESIDUAL_EXPLAINED]) / max(params.sensor_pixels, 1);
+    state[0].best_through = float(histograms[RESIDUAL_THROUGH]) / max(params.sensor_pixels, 1);
   }
   state[0].base = camera[0];
   state[0].rotation0 = vec3(1, 0, 0);

@@ -2,24 +2,13 @@
 #extension GL_GOOGLE_include_directive : require
 #include "align_step.h"
 #include "adam.glsl"
+#include "align_total.glsl"
 #include "pose.glsl"
 #include "triangle.glsl"
-
-shared AlignSums tree[gl_WorkGroupSize.x];
 
 // Of the residuals, so that perfect data do not divide by zero: of intensity, and of distance in standard deviations.
 const float LEAST_COLOUR = 1e-8, LEAST_DEPTH = 0.01;
 const float DAMPING = 1e-4;          // of the diagonal
-
-AlignSums add(AlignSums a, AlignSums b) {
-  [[unroll]] for (uint n = 0; n < 21; ++n) a.normal[n] += b.normal[n];
-  [[unroll]] for (uint n = 0; n < 6; ++n) a.slope[n] += b.slope[n];
-  a.squares_colour += b.squares_colour;
-  a.squares_depth += b.squares_depth;
-  a.pixels_colour += b.pixels_colour;
-  a.pixels_depth += b.pixels_depth;
-  return a;
-}
 
 /// Solves the normal equations by Cholesky's decomposition; false where they leave a direction open.
 bool solve(AlignSums s, out float x[6]) {
@@ -64,28 +53,14 @@ AlignScales scales_of(AlignSums s, AlignScales before) {
                      variance_of(s.squares_depth, s.pixels_depth, LEAST_DEPTH, before.depth));
 }
 
-/// The sum of the partial sums of a source, for invocation 0; all of the workgroup take part.
-AlignSums total(uint i, uint source) {
-  const uint count = params.count, first = source * count;
-  AlignSums sum = partial_sums[first + min(i, count - 1)];   // beyond the count: not used below
-  for (uint k = i + gl_WorkGroupSize.x; k < count; k += gl_WorkGroupSize.x) sum = add(sum, partial_sums[first + k]);
-  barrier();
-  tree[i] = sum;
-  for (uint step = gl_WorkGroupSize.x / 2; step > 0; step /= 2) {
-    barrier();
-    if (i < step && i + step < count) tree[i] = add(tree[i], tree[i + step]);
-  }
-  return tree[0];
-}
-
 // One workgroup: adds up the partial sums in a fixed order; then one invocation solves and moves the camera.
 void main() {
   const uint i = gl_LocalInvocationID.x;
   const bool acts = i == 0 && status[0].overflow == 0;
-  AlignSums s = total(i, 0);
+  AlignSums s = total(i, 0, params.count);
   if (acts) state[0].scales[0] = scales_of(s, state[0].scales[0]);
   for (uint source = 1; source < params.sources; ++source) {
-    const AlignSums more = total(i, source);
+    const AlignSums more = total(i, source, params.count);
     if (acts) state[0].scales[source] = scales_of(more, state[0].scales[source]);
     s = add(s, more);
   }

@@ -1,6 +1,11 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "track_residuals.h"
+#include "depth_noise.glsl"
+
+const float DEVIATIONS = 3;          // of the sensor, within which the render explains a depth
+const float LEAST_EXPLAINED = 0.02;  // metres; what the map itself is off at least
+const float LEAST_THROUGH = 0.05;    // metres
 
 uint bin_of(float residual) {
   const float octave = log2(max(residual, exp2(-20.0))) + 20;
@@ -21,5 +26,9 @@ void main() {
                              covered && sensor > 0 ? abs(depth - sensor) : -1.0);
   residuals[i] = residual;
   if (residual.x >= 0) atomicAdd(histograms[bin_of(residual.x)], 1);
-  if (residual.y >= 0) atomicAdd(histograms[RESIDUAL_BINS + bin_of(residual.y)], 1);
+  if (residual.y < 0) return;
+  atomicAdd(histograms[RESIDUAL_BINS + bin_of(residual.y)], 1);
+  const float expected = DEVIATIONS * sigma_at(params.noise, sensor);
+  if (residual.y < max(expected, LEAST_EXPLAINED)) atomicAdd(histograms[RESIDUAL_EXPLAINED], 1);
+  if (sensor - depth > max(expected, LEAST_THROUGH)) atomicAdd(histograms[RESIDUAL_THROUGH], 1);
 }

@@ -17,6 +17,8 @@ void main() {
     state[0].best_loss = loss;
     state[0].best_camera = c;
     state[0].best_valid = s.depth_pixels / max(params.sensor_pixels, 1);
+    state[0].best_explained = float(histograms[RESIDUAL_EXPLAINED]) / max(params.sensor_pixels, 1);
+    state[0].best_through = float(histograms[RESIDUAL_THROUGH]) / max(params.sensor_pixels, 1);
   }
   PoseAdam adam = state[0].adam;
   const PoseGradient g = pose_gradient[0];

@@ -295,3 +295,17 @@ TEST_CASE("poses that no stamps bring together are refused with how far apart th
   CHECK_THROWS_WITH_AS(evaluate_trajectory(estimate, {unknown(1)}),
                        doctest::Contains("the truth has no pose that is known"), InputError);
 }
+
+TEST_CASE("frames that were lost take no part in errors, and are counted") {
+  const Trajectory truth = make_curve(50);
+  Trajectory estimate = moved(truth, some_motion());
+  for (int i : {7, 8, 30}) {
+    estimate[i].lost = true;
+    estimate[i].camera_to_world.translation().x() += 5;
+  }
+  const TrajectoryMetrics metrics = evaluate_trajectory(estimate, truth);
+  CHECK(metrics.pairs == 47);
+  CHECK(metrics.estimates == 50);
+  CHECK(metrics.lost == 3);
+  CHECK(metrics.ate.max < 1e-9);
+}

@@ -5,6 +5,7 @@
 
 #include "engine/io/files.h"
 #include "engine/io/trajectory_file.h"
+#include "engine/io/trajectory_formats.h"
 #include "tests/support/input_files.h"
 
 using namespace surefield;
@@ -101,4 +102,23 @@ TEST_CASE("a trajectory cut at any byte is read or refused, never a crash") {
     CHECK(poses <= 2);
     CHECK((message.empty() || contains(message, "trajectory.txt:")));
   }
+}
+
+TEST_CASE("a lost frame is marked by a comment before its line, which is read again") {
+  const TemporaryFolder folder;
+  Trajectory trajectory;
+  for (int i = 0; i < 4; ++i) trajectory.push_back(make_pose(i, 0.1 * i, {0.1 * i, 0, 0}));
+  trajectory[1].lost = trajectory[2].lost = true;
+  write_trajectory(folder / "a.txt", trajectory);
+  const std::string text = read_file(folder / "a.txt");
+  CHECK(contains(text, "\n# lost\n1.000000 "));
+  CHECK(contains(text, "\n# lost\n2.000000 "));
+  for (const Trajectory& read :
+       {read_trajectory(folder / "a.txt"), read_any_trajectory(folder / "a.txt").poses}) {
+    REQUIRE(read.size() == 4);
+    for (int i = 0; i < 4; ++i) CHECK(read[i].lost == trajectory[i].lost);
+  }
+  // Other comments say nothing of the pose.
+  CHECK_FALSE(read_text(folder, "# lost and found\n0 0 0 0 0 0 0 1\n")[0].lost);
+  CHECK_FALSE(read_text(folder, "# lost\n\n0 0 0 0 0 0 0 1\n")[0].lost);
 }

@@ -47,7 +47,7 @@ struct LitRun {
 
   int lost() const {
     return static_cast<int>(
-        std::count_if(reports.begin(), reports.end(), [](const auto& r) { return r.lost; }));
+        std::count_if(reports.begin(), reports.end(), [](const auto& r) { return r.lost(); }));
   }
   double ate() const { return evaluate_trajectory(trajectory, walk().ground_truth()).ate.rmse; }
 };

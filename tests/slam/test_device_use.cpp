@@ -40,7 +40,7 @@ std::vector<FrameUse> run(const SlamSettings& settings) {
     const Frame frame = *recording.load(i).frame;
     const gpu::DeviceCounters before = slam.engine_report().device_use;
     const FrameReport report = slam.feed(frame);
-    CHECK_FALSE(report.lost);
+    CHECK_FALSE(report.lost());
     frames.push_back({report.keyframe, slam.engine_report().device_use - before});
   }
   CHECK(slam.engine_report().validation_messages.empty());

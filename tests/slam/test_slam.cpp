@@ -43,7 +43,7 @@ TEST_CASE("SLAM follows the synthetic office, and the same run gives the same bi
   CHECK(first.reports[3].keyframe);
   CHECK(first.reports[3].mapping_iterations == 10);
   CHECK_FALSE(first.reports[4].keyframe);
-  for (const FrameReport& report : first.reports) CHECK_FALSE(report.lost);
+  for (const FrameReport& report : first.reports) CHECK_FALSE(report.lost());
   for (float logit : first.map.opacity_logits) REQUIRE(std::isfinite(logit));
 
   const Run second = run(6, quick_settings());
@@ -132,7 +132,7 @@ TEST_CASE("a run whose windows are chosen by images follows the office") {
   settings.keyframes.window = 3;
   const Run first = run(9, settings);
   CHECK(evaluate_trajectory(first.trajectory, first.truth).ate.rmse < 0.02);
-  for (const FrameReport& report : first.reports) CHECK_FALSE(report.lost);
+  for (const FrameReport& report : first.reports) CHECK_FALSE(report.lost());
   settings.keyframes.covisibility = CovisibilityKind::NetVlad;
   CHECK_THROWS_AS(Slam(settings, Intrinsics{}, engine_options()), InputError);
 }
@@ -145,11 +145,11 @@ TEST_CASE("a frame that shows something else is reported as lost after re-tries,
   covered.depth.setTo(0.3f);
   covered.colour.setTo(cv::Scalar(255, 0, 255));
   const FrameReport report = slam.feed(covered);
-  CHECK(report.lost);
+  CHECK(report.lost());
   CHECK(report.retries == 2);
   CHECK_FALSE(report.keyframe);
   CHECK(slam.trajectory().size() == 4);
-  CHECK_FALSE(slam.feed(*recording.load(4).frame).lost);
+  CHECK_FALSE(slam.feed(*recording.load(4).frame).lost());
 }
 
 TEST_CASE("frames of the wrong size and a first frame without depth are refused and change nothing") {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <vector>
 
 #include "engine/types/error.h"
@@ -117,6 +118,28 @@ TEST_CASE("frames, stamps and the true trajectory agree") {
     CHECK(recording.ground_truth().at(i).timestamp == recording.timestamp(i));
     CHECK(recording.ground_truth().at(i).is_finite());
   }
+}
+
+TEST_CASE("views beside the path are 10 cm and 4 degrees off it, ideal, and see something") {
+  const SynthSettings settings{.width = 64, .height = 48, .frames = 30, .sensor = SensorKind::Kinect};
+  const SyntheticRecording path = make(settings);
+  SynthSettings other = settings;
+  other.beside = 5;
+  const SyntheticRecording beside = make(other);
+  REQUIRE(beside.count() == 5);
+  REQUIRE(beside.ground_truth().size() == 5);
+  for (int i = 0; i < 5; ++i) {
+    CAPTURE(i);
+    const Pose there = beside.ground_truth()[i].camera_to_world, here = path.true_pose((i + 0.5) / 5);
+    CHECK((there.translation() - here.translation()).norm() == doctest::Approx(0.1));
+    const Eigen::AngleAxisd turn((there.linear().transpose() * here.linear()).eval());
+    CHECK(turn.angle() == doctest::Approx(4 * std::numbers::pi / 180));
+    CHECK(beside.true_pose(beside.timestamp(i)).matrix() == there.matrix());
+    CHECK(beside.colour_timestamp(i) == beside.timestamp(i));
+    const Frame frame = *beside.load(i).frame;
+    CHECK(cv::countNonZero(frame.depth) == frame.depth.rows * frame.depth.cols);
+  }
+  CHECK_THROWS_AS(make({.width = 8, .height = 8, .frames = 1, .beside = -1}), InputError);
 }
 
 TEST_CASE("a sequence without pixels or frames is refused") {

@@ -89,6 +89,33 @@ TEST_CASE("eval --run finds again what the run found, and needs no more than its
                  "trajectory.txt: is not as run "));
 }
 
+TEST_CASE("eval compares a map with views that the run has not seen") {
+  const TemporaryFolder folder;
+  const Outcome synth = surefield_command({"synth", "--frames", "6", "--size", "96x72", "--beside", "2", "--out",
+                                           folder / "office", "--quiet"},
+                                          folder.path());
+  REQUIRE_MESSAGE(synth.code == 0, synth.err);
+  const Outcome run = surefield_command({"run", "--dataset", folder / "office", "--out", folder / "out"},
+                                        folder.path());
+  REQUIRE_MESSAGE(run.code == 0, run.err);
+  const Outcome outcome = surefield_command({"eval", "--run", folder / "out", "--views", folder / "office/beside",
+                                             "--json", folder / "out.json"},
+                                            folder.path());
+  REQUIRE_MESSAGE(outcome.code == 0, outcome.err);
+  CHECK(contains(outcome.out, "from the views of "));
+  const nlohmann::json json = read_json(folder / "out.json");
+  CHECK(json["images"]["frames"] == 6);
+  CHECK(json["views"]["frames"] == 2);
+  // Beside the path it is worse, but the world is the same one: elsewhere it would be noise.
+  CHECK(json["views"]["psnr_db"].get<double>() > 15);
+  CHECK(json["views"]["psnr_db"].get<double>() < json["images"]["psnr_db"].get<double>());
+
+  const Outcome blind = surefield_command({"eval", "--run", folder / "out", "--views", folder / "nothing"},
+                                          folder.path());
+  CHECK(blind.code == 2);
+  CHECK(contains(blind.err, "nothing"));
+}
+
 TEST_CASE("eval renders the map of a run with the depth model of that run") {
   const TemporaryFolder folder;
   std::vector<std::string> arguments = short_run(folder / "out", 2);

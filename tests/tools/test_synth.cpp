@@ -35,6 +35,22 @@ TEST_CASE("synth writes both layouts with poses and the true mesh, and the reade
   }
 }
 
+TEST_CASE("synth writes views beside the path as a dataset of its own") {
+  const TemporaryFolder folder;
+  const Outcome outcome =
+      synth_command(folder, "office", {"--layout", "tum", "--sensor", "kinect", "--beside", "3"});
+  REQUIRE_MESSAGE(outcome.code == 0, outcome.err);
+  CHECK(open_dataset(folder / "office").recording->count() == 2);
+  const auto beside = open_dataset(folder / "office/beside");
+  CHECK(beside.recording->count() == 3);
+  REQUIRE(beside.ground_truth);
+  CHECK(beside.ground_truth->size() == 3);
+  CHECK(beside.recording->load(2).frame.has_value());
+  // Written again without them, they are gone.
+  CHECK(synth_command(folder, "office").code == 0);
+  CHECK_FALSE(std::filesystem::exists(folder / "office/beside"));
+}
+
 TEST_CASE("synth names what is wrong with its options, and leaves other people's folders alone") {
   const TemporaryFolder folder;
   for (const auto& [option, value] :

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <filesystem>
 #include <map>
 #include <memory>
 #include <optional>
@@ -43,6 +44,7 @@ const std::map<std::string, SequenceLayout> kLayouts = {{"replica", SequenceLayo
 struct SynthOptions {
   SynthSettings settings{.width = 640, .height = 480, .frames = 300};
   SequenceLayout layout = SequenceLayout::Replica;
+  int beside = 0;
   std::string size = "640x480";
   std::string out;
   std::string device;
@@ -56,16 +58,13 @@ void parse_size(const std::string& text, SynthSettings& settings) {
     throw InputError(fmt::format("--size {}: must be WIDTHxHEIGHT in pixels, as in 640x480", text));
 }
 
-int synthesise(SynthOptions& options) {
-  catch_interrupts();
-  parse_size(options.size, options.settings);
-  gpu::DeviceOptions device;
-  device.selector = options.device;
-  const SyntheticRecording recording(device, options.settings);
-  SequenceWriter writer(options.out, options.layout, recording);
+/// Tells the progress in counts of `what`, unless null.
+void write_sequence(const std::filesystem::path& folder, SequenceLayout layout,
+                    const SyntheticRecording& recording, const char* what) {
+  SequenceWriter writer(folder, layout, recording);
   {
     std::optional<CountProgress> progress;
-    if (!options.quiet) progress.emplace("frames", recording.count());
+    if (what) progress.emplace(what, recording.count());
     try {
       for (int i = 0; i < recording.count() && !interrupted(); ++i) {
         writer.write(i);
@@ -77,6 +76,21 @@ int synthesise(SynthOptions& options) {
     }
   }
   writer.finish();
+}
+
+int synthesise(SynthOptions& options) {
+  catch_interrupts();
+  parse_size(options.size, options.settings);
+  gpu::DeviceOptions device;
+  device.selector = options.device;
+  const SyntheticRecording recording(device, options.settings);
+  write_sequence(options.out, options.layout, recording, options.quiet ? nullptr : "frames");
+  if (options.beside > 0 && !interrupted()) {
+    SynthSettings beside = options.settings;
+    beside.beside = options.beside;
+    write_sequence(std::filesystem::path(options.out) / "beside", SequenceLayout::Replica,
+                   SyntheticRecording(device, beside), options.quiet ? nullptr : "views beside the path");
+  }
   return interrupted() ? kInterrupted : kSuccess;
 }
 
@@ -128,6 +142,11 @@ void add_synth(CLI::App& program, Action& action) {
   synth->add_option("--layout", options->layout, "Layout of the dataset")
       ->transform(CLI::CheckedTransformer(kLayouts))
       ->option_text("replica|tum [replica]");
+  synth->add_option("--beside", options->beside,
+                    "Also writes so many views 10 cm and 4 degrees beside the path, without errors, to OUT/beside, for "
+                    "surefield eval --views")
+      ->check(CLI::Range(0, 10000))
+      ->capture_default_str();
   synth->add_flag("--moving-object", settings.moving_object, "Somebody walks through the scene");
   synth->add_option("--size", options->size, "Size of the images, pixels")
       ->type_name("WIDTHxHEIGHT")

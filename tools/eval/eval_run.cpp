@@ -5,7 +5,9 @@
 #include <cmath>
 #include <filesystem>
 
+#include "engine/eval/mesh_alignment.h"
 #include "engine/io/files.h"
+#include "engine/sources/open_dataset.h"
 #include "engine/types/error.h"
 #include "tools/results/run_folder.h"
 #include "tools/results/trajectory_report.h"
@@ -41,14 +43,33 @@ TrajectoryErrors measure_trajectory(const RunFolder& run, const Dataset& dataset
   return errors;
 }
 
+/// The true poses of other views in the run's world: the dataset's truth, which has theirs in the same world,
+/// says where that lies.
+std::vector<QualityView> true_views(const RunFolder& run, const Dataset& dataset, const Dataset& views) {
+  if (!dataset.ground_truth || !views.ground_truth) {
+    const Recording& without = *(dataset.ground_truth ? views : dataset).recording;
+    throw InputError("--views needs true poses of both datasets, but " + without.name() + " has none");
+  }
+  const Intrinsics intrinsics = views.recording->intrinsics().scaled(run.number("/dataset/scale"));
+  const Eigen::Isometry3d to_truth = align_poses(associate(run.trajectory, *dataset.ground_truth));
+  const Trajectory truth = of_tracked_camera(*views.ground_truth, *views.recording);
+  std::vector<QualityView> result;
+  for (int i = 0; i < views.recording->count() && i < static_cast<int>(truth.size()); ++i) {
+    if (truth[i].is_finite())
+      // Neither keyframes nor held out: no frame of the run.
+      result.push_back({i, {intrinsics, truth[i].camera_to_world.inverse() * to_truth}, true});
+  }
+  return result;
+}
+
 std::optional<MapQuality> measure_images(const EvalRunOptions& options, const RunFolder& run,
-                                         const Recording& recording) {
+                                         const Recording& recording, const std::vector<QualityView>& views) {
   std::optional<Lpips> lpips;
   if (!options.lpips.empty()) lpips.emplace(options.lpips);
   SplatEngine engine(options.engine);
   assign_map(engine, run);
   QualityInput input{.frame = frames_of(recording, run.number("/dataset/scale")),
-                     .views = views_of(run, recording),
+                     .views = views,
                      .noise = noise_of(settings_of(run).sensor),
                      .render = [&](const Camera& camera) { return engine.render(camera); }};
   if (lpips) input.lpips = &*lpips;
@@ -101,14 +122,22 @@ int evaluate_run(const EvalRunOptions& options) {
   const RunFolder run = read_run(options.run);
   const Dataset dataset = open_dataset_of(run, options.dataset);
   const TrajectoryErrors errors = measure_trajectory(run, dataset);
-  const std::optional<MapQuality> images = measure_images(options, run, *dataset.recording);
+  const std::optional<MapQuality> images =
+      measure_images(options, run, *dataset.recording, views_of(run, *dataset.recording));
+  std::optional<MapQuality> views;
+  if (!options.views.empty()) {
+    const Dataset other = open_dataset(options.views);
+    views = measure_images(options, run, *other.recording, true_views(run, dataset, other));
+  }
   if (!options.json.empty()) {
-    const auto json = to_json(run, errors, images);
+    auto json = to_json(run, errors, images);
+    if (!options.views.empty()) json["views"] = quality_json(views);
     write_file(options.json, [&](std::ostream& stream) { stream << json.dump(2) << "\n"; });
   }
   if (errors.frames) fmt::print("{}", trajectory_table(*errors.frames));
   if (errors.keyframes) fmt::print("keyframes' ATE   {:.3f} cm\n", 100 * errors.keyframes->ate.rmse);
   if (images) fmt::print("{}", quality_table(*images));
+  if (views) fmt::print("from the views of {}\n{}", options.views, quality_table(*views));
   fmt::print("{}", cost_lines(run));
   return interrupted() ? kInterrupted : kSuccess;
 }

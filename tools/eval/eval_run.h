@@ -10,13 +10,15 @@ namespace surefield {
 struct EvalRunOptions {
   std::string run;      ///< folder of results
   std::string dataset;  ///< where the run's own is no longer where it was; else empty
+  std::string views;    ///< a dataset with true poses in the same world, see evaluate_run(); else empty
   std::string lpips;    ///< ONNX file; empty: not measured
   std::string json;     ///< file to write; empty: none
   EngineOptions engine;
 };
 
 /// Measures the trajectory and the map of a finished run against its dataset, all frames of it; prints and
-/// writes what docs/evaluation.md describes. Returns the exit code. Throws InputError, gpu::Error.
+/// writes what docs/evaluation.md describes. With `views`, the map is also compared with all images of that dataset, from
+/// its true poses. Returns the exit code. Throws InputError, gpu::Error.
 int evaluate_run(const EvalRunOptions& options);
 
 }  // namespace surefield

@@ -131,6 +131,7 @@ std::vector<QualityView> views_of(const RunFolder& run, const Recording& recordi
   const Trajectory tracked = of_tracked_camera(run.trajectory, recording);
   std::vector<QualityView> views;
   for (std::size_t i = 0; i < tracked.size(); ++i) {
+    if (tracked[i].lost) continue;
     const nlohmann::json& frame = run.metrics["per_frame"][i];
     QualityView view{frame.value("index", -1),
                      {intrinsics, tracked[i].camera_to_world.inverse()},

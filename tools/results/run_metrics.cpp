@@ -65,7 +65,11 @@ Json frames_json(const RunRecord& record) {
       {"total", record.selected ? Json(*record.selected) : Json(nullptr)},
       {"fed", record.frames.size()},
       {"skipped", record.skipped.size()},
-      {"lost", count_frames(record.frames, [](const FrameReport& frame) { return frame.lost; })},
+      {"lost", count_frames(record.frames, [](const FrameReport& frame) { return frame.lost(); })},
+      {"poor", count_frames(record.frames,
+                            [](const FrameReport& frame) { return frame.state == TrackingState::Poor; })},
+      {"pose_share", record.frames.empty() ? Json(nullptr) : Json(record.pose_share())},
+      {"doubtful_end", record.doubtful_end()},
       {"retried", count_frames(record.frames, [](const FrameReport& frame) { return frame.retries > 0; })},
       {"keyframes", record.keyframes.size()}};
 }

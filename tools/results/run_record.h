@@ -43,6 +43,10 @@ struct RunRecord {
   std::optional<TrajectoryMetrics> keyframe_accuracy;
   std::optional<MapQuality> images;
 
+  /// Frames whose pose is known, of all that were read; nan: none was.
+  double pose_share() const;
+  /// Frames at the end of the run whose poses are poor or not known.
+  int doubtful_end() const;
   /// Gaussians in the final map.
   uint32_t gaussians() const { return frames.empty() ? 0 : frames.back().gaussians; }
   double frames_per_second() const { return seconds > 0 ? static_cast<double>(frames.size()) / seconds : 0; }

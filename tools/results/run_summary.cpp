@@ -16,9 +16,12 @@ std::string frames_line(const RunRecord& record) {
   std::string text =
       fmt::format("frames           {}{}, {} keyframes", record.frames.size(),
                   record.selected ? fmt::format(" of {}", *record.selected) : "", record.keyframes.size());
-  const int lost = count_frames(record.frames, [](const FrameReport& frame) { return frame.lost; });
+  const int lost = count_frames(record.frames, [](const FrameReport& frame) { return frame.lost(); });
   const int retried = count_frames(record.frames, [](const FrameReport& frame) { return frame.retries > 0; });
   if (retried > 0) text += fmt::format(", {} tracked again from another pose", retried);
+  const int poor = count_frames(record.frames,
+                                [](const FrameReport& frame) { return frame.state == TrackingState::Poor; });
+  if (poor > 0) text += fmt::format(", {} poor", poor);
   if (lost > 0) text += fmt::format(", {} lost", lost);
   if (!record.skipped.empty()) text += fmt::format(", {} skipped", record.skipped.size());
   return text + "\n";
@@ -70,6 +73,19 @@ IterationTotal total(const std::vector<FrameReport>& frames, int FrameReport::*i
 
 }  // namespace
 
+double RunRecord::pose_share() const {
+  const auto read = static_cast<double>(frames.size() + skipped.size());
+  const int lost = count_frames(frames, [](const FrameReport& frame) { return frame.lost(); });
+  return (static_cast<double>(frames.size()) - lost) / read;
+}
+
+int RunRecord::doubtful_end() const {
+  int count = 0;
+  for (auto frame = frames.rbegin(); frame != frames.rend() && frame->state != TrackingState::Good; ++frame)
+    ++count;
+  return count;
+}
+
 IterationTotal tracking_total(const std::vector<FrameReport>& frames) {
   return total(frames, &FrameReport::tracking_iterations, &FrameReport::tracking_ms);
 }
@@ -82,6 +98,8 @@ std::string run_summary(const RunRecord& record) {
   std::string text = frames_line(record);
   text += skipped_lines(record);
   text += depth_delay_line(record);
+  if (!record.frames.empty())
+    text += fmt::format("poses known      {:.1f} % of the frames\n", 100 * record.pose_share());
   if (record.accuracy) text += trajectory_table(*record.accuracy);
   if (record.keyframe_accuracy) {
     text += fmt::format("keyframes' ATE   {:.3f} cm\n", 100 * record.keyframe_accuracy->ate.rmse);

@@ -109,8 +109,10 @@ void add_run(CLI::App& program, Action& action) {
       "Shows the map while it grows, in a window; closing it does not end the run (docs/viewer.md)");
   run->add_flag("--overwrite", options->overwrite,
                 "Replaces the earlier run that --out holds; other files that are there stay");
-  run->add_flag("--strict", options->strict,
-                "Ends with exit code 4, before the first frame, where something looks wrong");
+  run->add_flag(
+      "--strict", options->strict,
+      "Ends with exit code 4 where something looks wrong: before the first frame, or when the run has "
+      "ended with too few poses, or without one that can be trusted");
   run->add_flag("--quiet", options->quiet, "Prints warnings and errors only");
   run->footer(kRunExamples);
   run->callback([options, &action] { action = [options] { return run_watched(*options); }; });

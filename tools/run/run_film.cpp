@@ -112,7 +112,7 @@ cv::Mat RunFilm::paint(const Slam& slam) {
 std::string RunFilm::caption(const Slam& slam) const {
   return fmt::format("frame {}{}{}   keyframes {}   Gaussians {}", newest_.index + 1,
                      frames_ ? fmt::format(" of {}", *frames_) : "",
-                     slam.reports().back().lost ? ", lost" : "", slam.keyframes().size(),
+                     slam.reports().back().lost() ? ", lost" : "", slam.keyframes().size(),
                      stage_->painter.gaussians());
 }
 

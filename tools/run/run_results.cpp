@@ -42,19 +42,20 @@ void complete_record(RunRecord& record, const Slam& slam, const FrameSource& sou
   record.keyframe_accuracy = accuracy(of_reference_camera(record.keyframes, source), truth);
 }
 
-/// The frames that the final map is compared with, by their places among those fed: all, or kMostCompared
-/// evenly spaced ones where there are more; the kept keyframes where the source cannot be read again.
+/// The frames that the final map is compared with, by their places among those fed: all that have a pose, or
+/// kMostCompared evenly spaced ones where there are more; the kept keyframes where the source cannot be read again.
 std::vector<std::size_t> compared_frames(const RunRecord& record, const FrameSource& source,
                                          const KeptKeyframes& kept) {
-  std::vector<std::size_t> places;
-  const std::size_t fed = record.frames.size();
-  if (source.recording()) {
-    const std::size_t count = std::min(fed, kMostCompared);
-    for (std::size_t k = 0; k < count; ++k) places.push_back(count < 2 ? 0 : k * (fed - 1) / (count - 1));
-  } else {
-    for (std::size_t i = 0; i < fed; ++i)
-      if (kept.find(record.frames[i].index)) places.push_back(i);
+  std::vector<std::size_t> posed;
+  for (std::size_t i = 0; i < record.frames.size(); ++i) {
+    const bool again = source.recording() || kept.find(record.frames[i].index);
+    if (again && !record.frames[i].lost()) posed.push_back(i);
   }
+  if (!source.recording()) return posed;
+  const std::size_t count = std::min(posed.size(), kMostCompared);
+  std::vector<std::size_t> places;
+  for (std::size_t k = 0; k < count; ++k)
+    places.push_back(posed[count < 2 ? 0 : k * (posed.size() - 1) / (count - 1)]);
   return places;
 }
 

@@ -28,7 +28,9 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr double kManyUnusable = 0.1;                    // share of the frames that is worth a warning
+constexpr double kLeastPosed = 0.97;   // share of the frames that a result to be trusted has poses for
+constexpr int kDoubtfulEnd = 3;        // frames without a good pose at the end that are worth a warning
+constexpr double kManyUnusable = 0.1;  // share of the frames that is worth a warning
 constexpr std::chrono::milliseconds kReadPatience{500};  // for a frame that is being read when the run ends
 
 /// What the source of the frames says about a run before it starts.
@@ -70,12 +72,26 @@ void warn(spdlog::logger& log, const std::string& text) {
   say(stderr, "surefield: warning: {}\n", text);
 }
 
+/// Whether more of the frames have no pose than a result to be trusted may lack.
+bool many_lost(const RunRecord& record) {
+  return !record.frames.empty() && record.pose_share() < kLeastPosed;
+}
+
 /// Says where many frames were of no use, which the trajectory alone does not show.
 void warn_of_unusable(spdlog::logger& log, const RunRecord& record) {
   const std::size_t unusable = record.skipped.size(), all = unusable + record.frames.size();
   if (static_cast<double>(unusable) <= kManyUnusable * static_cast<double>(all)) return;
   warn(log, fmt::format("{} of {} frames could not be used, the first because: {}", unusable, all,
                         record.skipped.front().reason));
+}
+
+/// Says where the run was lost, or nearly so, when it ended.
+void warn_of_end(spdlog::logger& log, const RunRecord& record) {
+  const int doubtful = record.doubtful_end();
+  if (doubtful < kDoubtfulEnd) return;
+  warn(log, fmt::format(
+                "the poses of the last {} frames are uncertain or not known; what they saw is not in the map",
+                doubtful));
 }
 
 /// Says what looks wrong before the first frame, and what is left out; returns whether anything looks wrong.
@@ -101,6 +117,7 @@ void report(ResultsFolder& results, const RunRecord& record, bool quiet) {
     say(stderr, "surefield: validation: {}\n", message);
   }
   warn_of_unusable(results.log(), record);
+  warn_of_end(results.log(), record);
   const std::string summary = run_summary(record);
   results.log().info("summary\n{}", summary);
   if (!quiet) say(stdout, "{}results          {}\n", summary, results.path().string());
@@ -127,10 +144,11 @@ void announce(spdlog::logger& log, const RunRecord& record, const FrameSource& s
 }
 
 /// The exit code of a run that has ended, where it was not for an error.
-int exit_code(const ResultsFolder& results, bool stopped) {
+int exit_code(const ResultsFolder& results, bool stopped, bool doubtful) {
   for (const std::string& problem : results.problems()) print_error(problem);
   if (!results.problems().empty()) return kFailure;
-  return stopped ? kInterrupted : kSuccess;
+  if (stopped) return kInterrupted;
+  return doubtful ? kDoubtful : kSuccess;
 }
 
 }  // namespace
@@ -169,7 +187,8 @@ int run_session(const RunOptions& asked, const RunObservers& observers) {
   const bool stopped = interrupted();  // from here on nothing is lost where nobody reads what is said
   if (!record.frames.empty()) report(results, record, options.quiet);
   for (RunObserver* observer : all) observer->finished(slam);
-  const int code = exit_code(results, stopped);
+  const bool doubtful = record.doubtful_end() >= kDoubtfulEnd || many_lost(record);
+  const int code = exit_code(results, stopped, options.strict && doubtful);
   // A read from a disk that does not answer may last for ever.
   if (interrupted() && !stream.idle_within(kReadPatience)) leave(code);
   if (failure) std::rethrow_exception(failure);

@@ -88,7 +88,7 @@ class ViewerObserver : public RunObserver {
         [&] {
           const std::optional<int> frames = source_->size();
           return scene(slam, fmt::format("frame {}{}{}", fed_, frames ? fmt::format(" of {}", *frames) : "",
-                                         report.lost ? ", lost" : ""));
+                                         report.lost() ? ", lost" : ""));
         },
         [&] { return slam.map(); });
   }
