@@ -23,6 +23,9 @@ constexpr uint32_t kEvidenceStride = 7;
 constexpr std::size_t kParts = 2 * glsl::ALIGN_SOURCES;
 // Tracking ends when an alignment has moved the camera by less, radians and metres.
 constexpr double kStill = 3e-4;
+// Where a keyframe has no depth, metres: half an inverse metre, give or take as much, is anything from a
+// metre to infinity.
+constexpr float kUnmeasured = 2;
 // Where the scales of the residuals start: intensity (0 to 1), and distance in standard deviations of depth.
 constexpr glsl::AlignScales kFirstScales{.colour = 0.1f * 0.1f, .depth = 10 * 10};
 
@@ -112,16 +115,16 @@ void GaussNewtonTracker::record_points(gpu::Recorder& recorder, const Rasteriser
                      .image = levels_[0].rendered},
                     {.pixels = pixels, .minimum_opacity = static_cast<float>(settings.minimum_opacity)});
   record_halves(recorder, &Level::rendered);
-  for (uint32_t i = 0; i < kLevels; ++i) record_level(recorder, i, levels_[i].rendered, levels_[i].points);
+  for (uint32_t i = 0; i < kLevels; ++i) record_level(recorder, i, levels_[i].rendered, levels_[i].points, 0);
 }
 
 void GaussNewtonTracker::record_level(gpu::Recorder& recorder, uint32_t index,
                                       const gpu::Array<glsl::vec2>& image,
-                                      const gpu::Array<glsl::AlignPoint>& points) {
+                                      const gpu::Array<glsl::AlignPoint>& points, float unknown) {
   const ImageSize& size = levels_[index].size;
   recorder.dispatch(points_pass_, points_pass_.groups(size.pixels()),
                     {.camera = camera_, .image = image, .points = points},
-                    {.width = size.width, .height = size.height, .level = index});
+                    {.width = size.width, .height = size.height, .level = index, .unknown = unknown});
 }
 
 void GaussNewtonTracker::hold(std::size_t place, FrameHandle handle, const SensorFrame& frame,
@@ -133,7 +136,7 @@ void GaussNewtonTracker::hold(std::size_t place, FrameHandle handle, const Senso
   record_sensor(recorder, frame);
   for (uint32_t i = 0; i < kLevels; ++i) {
     recorder.reserve(levels_[i].reference_points[place], levels_[i].size.pixels());
-    record_level(recorder, i, levels_[i].sensor, levels_[i].reference_points[place]);
+    record_level(recorder, i, levels_[i].sensor, levels_[i].reference_points[place], kUnmeasured);
   }
   recorder.submit();
   held_[place] = handle;

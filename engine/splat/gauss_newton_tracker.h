@@ -55,7 +55,7 @@ class GaussNewtonTracker {
   void record_sensor(gpu::Recorder& recorder, const SensorFrame& frame);
   void record_halves(gpu::Recorder& recorder, gpu::Array<glsl::vec2> Level::*image);
   void record_level(gpu::Recorder& recorder, uint32_t index, const gpu::Array<glsl::vec2>& image,
-                    const gpu::Array<glsl::AlignPoint>& points);
+                    const gpu::Array<glsl::AlignPoint>& points, float unknown);
   void record_points(gpu::Recorder& recorder, const Rasteriser& rasteriser, const TrackingSettings& settings);
   void record_begin(gpu::Recorder& recorder, const Rasteriser& rasteriser, const TrackingLoss& loss,
                     const SensorFrame& frame, const TrackingSettings& settings);

@@ -26,8 +26,8 @@ constexpr double kTumStepsPerMetre = 5000;
 
 /// Everything that a sequence may consist of.
 constexpr std::array<const char*, 11> kOwnEntries = {
-    "results", "traj.txt",  "cam_params.json", "rgb",       "depth",
-    "rgb.txt", "depth.txt", "groundtruth.txt", kCameraFile, "mesh.ply", "beside"};
+    "results",   "traj.txt",        "cam_params.json", "rgb",      "depth", "rgb.txt",
+    "depth.txt", "groundtruth.txt", kCameraFile,       "mesh.ply", "beside"};
 
 void prepare_folder(const fs::path& folder) {
   std::error_code error;

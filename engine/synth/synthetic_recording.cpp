@@ -17,14 +17,17 @@ constexpr int kColourPoses = 9;     // in which the way of the camera during one
 constexpr int kDepthPoses = 5;      // and during one depth image that is not taken at once
 constexpr int kBlurredSamples = 8;  // of colour, a pixel
 
-// Views beside the path: how far away, metres and radians; directions that are tried, and how near nothing may stand.
+// Views beside the path: how far away, metres and radians; directions that are tried, and how near nothing
+// may stand.
 constexpr double kBeside = 0.10, kBesideTurn = 4 * std::numbers::pi / 180;
 constexpr int kDirections = 8;
 constexpr double kFree = 0.4;  // metres
 
 const SynthSettings& checked(const SynthSettings& settings) {
   if (settings.width < 1 || settings.height < 1 || settings.frames < 1 || settings.beside < 0) {
-    throw InputError("synthetic sequence: width, height and frames must be at least 1, views beside the path not negative");
+    throw InputError(
+        "synthetic sequence: width, height and frames must be at least 1, views beside the path not "
+        "negative");
   }
   return settings;
 }
@@ -41,8 +44,7 @@ SyntheticRecording::SyntheticRecording(const gpu::DeviceOptions& device, const S
   kinect_.seed = settings.seed;
   kinect_.jump_seconds = timestamp(settings.frames / 2);
   for (int i = 0; i < count(); ++i) {
-    const Pose world_to_camera =
-        settings.beside > 0 ? pose_beside(i) : path_.world_to_camera(timestamp(i));
+    const Pose world_to_camera = settings.beside > 0 ? pose_beside(i) : path_.world_to_camera(timestamp(i));
     ground_truth_.push_back({timestamp(i), world_to_camera.inverse()});
   }
 }

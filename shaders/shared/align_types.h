@@ -9,7 +9,7 @@ SHARED_TYPES_BEGIN
 /// A pixel of the render or of a keyframe as the frame is aligned to it, in the frame of the camera that saw it.
 struct AlignPoint {
   float intensity;
-  float depth;      // 0: no part at all
+  float depth;      // 0: no part at all; negative: not measured, thought to be that much, and uncertain by as much
   vec3 normal;      // unit length, towards the camera; 0 where there is none: not part of the geometric term
 };
 

@@ -72,11 +72,13 @@ void main() {
   for (uint n = 0; n < ALIGN_STRIP; ++n) {
     const uint i = (strip + n * params.strips) * params.stride;
     const AlignPoint point = points[i < pixels ? i : 0];
-    const vec3 Y = R * unproject(k, vec2(pixel_at(i, params.width)), point.depth) + t;
+    const bool unknown = point.depth < 0;
+    const float far = abs(point.depth);
+    const vec3 Y = R * unproject(k, vec2(pixel_at(i, params.width)), far) + t;
     const float z = max(Y.z, 1e-3);
     const vec2 seen = k.xy * Y.xy / z + k.zw;
     const vec2 last = vec2(params.width - 1, params.height - 1);
-    const bool visible = i < pixels && point.depth > 0 && Y.z > 1e-3 && all(greaterThanEqual(seen, vec2(0))) &&
+    const bool visible = i < pixels && far > 0 && Y.z > 1e-3 && all(greaterThanEqual(seen, vec2(0))) &&
                          all(lessThan(seen, last));
     const vec2 place = visible ? seen : vec2(0);
     const uvec2 corner = uvec2(place);
@@ -92,9 +94,10 @@ void main() {
     const vec2 slope = k.xy / z * vec2(mix(p10.x - p00.x, p11.x - p01.x, part.y), bottom - top);
     const vec3 by_point = vec3(slope, -dot(slope, Y.xy) / z);
     // What the keyframe saw may be hidden by now.
-    const bool shown = visible && (FROM_KEYFRAME == 0 || depth == 0 || abs(depth - Y.z) < SAME_SURFACE * Y.z);
+    const bool shown = visible && (FROM_KEYFRAME == 0 || depth == 0 || unknown || abs(depth - Y.z) < SAME_SURFACE * Y.z);
     // A point whose depth is uncertain is uncertain along its ray, and so is the intensity that it should have.
-    const float by_depth = dot(by_point, R * unproject(k, vec2(pixel_at(i, params.width)), 1.0)) * sigma_at(params.noise, point.depth);
+    const float sigma = unknown ? far : sigma_at(params.noise, far);
+    const float by_depth = sigma * dot(by_point, R * unproject(k, vec2(pixel_at(i, params.width)), 1.0));
     const float certainty = variance_colour / (variance_colour + by_depth * by_depth);
     const float w_colour = shown ? certainty * t_weight(sqrt(certainty) * off, variance_colour) : 0;
     s.squares_colour += w_colour * off * off;

@@ -39,8 +39,7 @@ Two see(int count, uint32_t seed, bool outliers = true) {
     const Eigen::Vector3d error(random.uniform(-0.004, 0.004), random.uniform(-0.004, 0.004),
                                 random.uniform(-0.004, 0.004));
     Eigen::Vector3d other = some_pose() * point + error;
-    if (outliers && i % 3 == 1)
-      other += Eigen::Vector3d(random.uniform(0.2, 1), random.uniform(-1, 1), 0.3);
+    if (outliers && i % 3 == 1) other += Eigen::Vector3d(random.uniform(0.2, 1), random.uniform(-1, 1), 0.3);
     two.from.descriptors.row(i) = two.to.descriptors.row(i) = any_descriptor(random);
     two.from.points.push_back(point.cast<float>());
     two.to.points.push_back(other.cast<float>());

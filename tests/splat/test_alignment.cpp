@@ -66,6 +66,7 @@ Pair make_pair(int width, int height) {
         Eigen::Vector3f(std::sin(0.1f * u), 0.3f * std::cos(0.2f * v), -1).normalized();
     pair.points.push_back({intensity, i % 13 == 5 ? 0 : depth, {normal.x(), normal.y(), normal.z()}});
     if (i % 17 == 3) pair.points.back().normal = {0, 0, 0};
+    if (i % 19 == 6) pair.points.back() = {intensity, -1.5f, {0, 0, 0}};  // not measured
     // One in eleven measures another surface, or nothing.
     const float measured = i % 11 == 4 ? 0 : i % 11 == 8 ? 2 * depth : depth + noise(random);
     pair.sensor.push_back({intensity + noise(random), measured});
@@ -84,8 +85,8 @@ struct Residuals {
 Residuals residuals_of(const Pair& p, int i, const Pose& pose, const Vector6& xi, double deeper = 0) {
   const Intrinsics& k = p.intrinsics;
   const glsl::AlignPoint& point = p.points[i];
-  if (!(point.depth > 0)) return {};
-  const double depth = point.depth;
+  if (point.depth == 0) return {};
+  const double depth = std::abs(point.depth);
   const Eigen::Vector3d ray((i % p.width - k.cx) / k.fx, (i / p.width - k.cy) / k.fy, 1);
   const Eigen::Vector3d Y0 = pose * (depth * ray), Y = small_motion(xi) * (pose * ((depth + deeper) * ray));
   const double u0 = k.fx * Y0.x() / Y0.z() + k.cx, v0 = k.fy * Y0.y() / Y0.z() + k.cy;
@@ -99,7 +100,7 @@ Residuals residuals_of(const Pair& p, int i, const Pose& pose, const Vector6& xi
 
   const int right = u0 - column >= 0.5, lower = v0 - row >= 0.5;
   const double seen = sensor(right, lower).y;
-  r.hidden = seen > 0 && std::abs(seen - Y0.z()) >= 0.05 * Y0.z();
+  r.hidden = point.depth > 0 && seen > 0 && std::abs(seen - Y0.z()) >= 0.05 * Y0.z();
   const Eigen::Vector3d n = to_eigen(point.normal);
   r.measured = seen > 0 && std::abs(seen - Y0.z()) < 0.2 * Y0.z() && n.norm() > 0;
   if (!r.measured) return r;
@@ -139,7 +140,8 @@ Sums reference_sums(const Pair& p, const Pose& pose, int stride, bool from_keyfr
       // that.
       const Residuals more = residuals_of(p, i, pose, Vector6::Zero(), kStep);
       const Residuals less = residuals_of(p, i, pose, Vector6::Zero(), -kStep);
-      const double by_depth = (more.colour - less.colour) / (2 * kStep) * kNoise.sigma(p.points[i].depth);
+      const double by_depth = (more.colour - less.colour) / (2 * kStep) *
+                              (p.points[i].depth > 0 ? kNoise.sigma(p.points[i].depth) : -p.points[i].depth);
       const double certainty = kVarianceColour / (kVarianceColour + by_depth * by_depth);
       const double w = certainty * weight_of(std::sqrt(certainty) * r.colour, kVarianceColour);
       s.squares_colour += w * r.colour * r.colour;

@@ -91,16 +91,16 @@ TEST_CASE("eval --run finds again what the run found, and needs no more than its
 
 TEST_CASE("eval compares a map with views that the run has not seen") {
   const TemporaryFolder folder;
-  const Outcome synth = surefield_command({"synth", "--frames", "6", "--size", "96x72", "--beside", "2", "--out",
-                                           folder / "office", "--quiet"},
-                                          folder.path());
+  const Outcome synth = surefield_command(
+      {"synth", "--frames", "6", "--size", "96x72", "--beside", "2", "--out", folder / "office", "--quiet"},
+      folder.path());
   REQUIRE_MESSAGE(synth.code == 0, synth.err);
-  const Outcome run = surefield_command({"run", "--dataset", folder / "office", "--out", folder / "out"},
-                                        folder.path());
+  const Outcome run =
+      surefield_command({"run", "--dataset", folder / "office", "--out", folder / "out"}, folder.path());
   REQUIRE_MESSAGE(run.code == 0, run.err);
-  const Outcome outcome = surefield_command({"eval", "--run", folder / "out", "--views", folder / "office/beside",
-                                             "--json", folder / "out.json"},
-                                            folder.path());
+  const Outcome outcome = surefield_command(
+      {"eval", "--run", folder / "out", "--views", folder / "office/beside", "--json", folder / "out.json"},
+      folder.path());
   REQUIRE_MESSAGE(outcome.code == 0, outcome.err);
   CHECK(contains(outcome.out, "from the views of "));
   const nlohmann::json json = read_json(folder / "out.json");
@@ -110,8 +110,8 @@ TEST_CASE("eval compares a map with views that the run has not seen") {
   CHECK(json["views"]["psnr_db"].get<double>() > 15);
   CHECK(json["views"]["psnr_db"].get<double>() < json["images"]["psnr_db"].get<double>());
 
-  const Outcome blind = surefield_command({"eval", "--run", folder / "out", "--views", folder / "nothing"},
-                                          folder.path());
+  const Outcome blind =
+      surefield_command({"eval", "--run", folder / "out", "--views", folder / "nothing"}, folder.path());
   CHECK(blind.code == 2);
   CHECK(contains(blind.err, "nothing"));
 }

@@ -96,6 +96,44 @@ TEST_CASE("a report needs neither dataset nor device, names are escaped, and 100
   CHECK_FALSE(contains(html, "<img"));
 }
 
+TEST_CASE("a verdict names the worst of trajectory, images, depth, floaters and the end of the run") {
+  const TemporaryFolder folder;
+  write_run(folder, "run", 40);
+  const nlohmann::json whole = [&] {
+    nlohmann::json metrics = read_json(folder / "run/metrics.json");
+    metrics["frames"]["lost"] = 0;
+    metrics["frames"]["doubtful_end"] = 0;
+    metrics["images"] = {{"psnr_db", 25}, {"psnr_same_exposure_db", 26}, {"depth_l1_m", 0.02},
+                         {"floaters", 0.01}, {"coverage", 0.99}};
+    return metrics;
+  }();
+  const auto report_of = [&](const std::string& pointer, const nlohmann::json& value) {
+    nlohmann::json metrics = whole;
+    if (!pointer.empty()) metrics[nlohmann::json::json_pointer(pointer)] = value;
+    folder.write("run/metrics.json", metrics.dump());
+    return make_report({folder / "run"}, folder);
+  };
+  CHECK(contains(report_of("", nullptr), "<p class=\"verdict good\">"));
+  struct Case {
+    const char* pointer;
+    double fair, bad;
+    const char* reason;
+  };
+  for (const Case& c : {Case{"/images/psnr_same_exposure_db", 14, 9, "renders that differ"},
+                        {"/images/depth_l1_m", 0.12, 0.4, "the error of the depth"},
+                        {"/images/floaters", 0.06, 0.3, "floaters"},
+                        {"/images/coverage", 0.85, 0.5, "holes"},
+                        {"/frames/doubtful_end", 3, 20, "no certain pose at the end"},
+                        {"/frames/lost", 1, 10, "frames without a pose"}}) {
+    CAPTURE(c.pointer);
+    const std::string fair = report_of(c.pointer, c.fair), bad = report_of(c.pointer, c.bad);
+    CHECK(contains(fair, "<p class=\"verdict fair\">"));
+    CHECK(contains(bad, "<p class=\"verdict bad\">"));
+    CHECK(contains(fair, std::string("Not better because of: ") + c.reason));
+  }
+  CHECK(contains(report_of("/status", "failed"), "<p class=\"verdict bad\">"));
+}
+
 TEST_CASE("a report of a run that lacks numbers shows dashes, and no nan") {
   const TemporaryFolder folder;
   write_run(folder, "bare", 5);

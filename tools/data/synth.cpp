@@ -142,9 +142,11 @@ void add_synth(CLI::App& program, Action& action) {
   synth->add_option("--layout", options->layout, "Layout of the dataset")
       ->transform(CLI::CheckedTransformer(kLayouts))
       ->option_text("replica|tum [replica]");
-  synth->add_option("--beside", options->beside,
-                    "Also writes so many views 10 cm and 4 degrees beside the path, without errors, to OUT/beside, for "
-                    "surefield eval --views")
+  synth
+      ->add_option(
+          "--beside", options->beside,
+          "Also writes so many views 10 cm and 4 degrees beside the path, without errors, to OUT/beside, for "
+          "surefield eval --views")
       ->check(CLI::Range(0, 10000))
       ->capture_default_str();
   synth->add_flag("--moving-object", settings.moving_object, "Somebody walks through the scene");

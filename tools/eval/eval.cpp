@@ -76,9 +76,10 @@ void add_eval(CLI::App& program, Action& action) {
   eval->add_option("--dataset", options->run.dataset,
                    "Folder of the run's dataset, where it is no longer where it was; beside "
                    "--ground-truth-mesh also without a run");
-  eval->add_option("--views", options->run.views,
-                   "A dataset whose true poses are in the same world as those of the run's: the map is compared "
-                   "with all of its images too, as with those that surefield synth --beside writes")
+  eval->add_option(
+          "--views", options->run.views,
+          "A dataset whose true poses are in the same world as those of the run's: the map is compared "
+          "with all of its images too, as with those that surefield synth --beside writes")
       ->needs(run);
   eval->add_option("--lpips", options->run.lpips,
                    "Network of the LPIPS distance, ONNX (docs/evaluation.md tells how to make it)")

@@ -17,8 +17,8 @@ struct EvalRunOptions {
 };
 
 /// Measures the trajectory and the map of a finished run against its dataset, all frames of it; prints and
-/// writes what docs/evaluation.md describes. With `views`, the map is also compared with all images of that dataset, from
-/// its true poses. Returns the exit code. Throws InputError, gpu::Error.
+/// writes what docs/evaluation.md describes. With `views`, the map is also compared with all images of that
+/// dataset, from its true poses. Returns the exit code. Throws InputError, gpu::Error.
 int evaluate_run(const EvalRunOptions& options);
 
 }  // namespace surefield

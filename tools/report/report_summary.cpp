@@ -1,20 +1,17 @@
 // The first thing that a report says: how good the runs were.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <cmath>
 #include <functional>
 
 #include "engine/report/html.h"
 #include "tools/report/report_sections.h"
+#include "tools/report/report_verdict.h"
 
 namespace surefield {
 
 namespace {
-
-// A run is judged by its error relative to the path: fair from the first, bad from the second.
-constexpr double kFairError = 0.01, kBadError = 0.03;
-constexpr double kShortestPath = 1;  // metres; on shorter ones a share would say little
-constexpr double kBadLost = 0.1;     // fraction of the frames
 
 /// Which of two values is the better one.
 enum class Better { Lower, Higher, Neither };
@@ -72,6 +69,9 @@ std::vector<MeasureGroup> accuracy_groups() {
        {{"PSNR", "dB", 2, Better::Higher, metric("/images/psnr_db")},
         {"SSIM", "", 4, Better::Higher, metric("/images/ssim")},
         {"Depth L1", "cm", 2, Better::Lower, metric("/images/depth_l1_m", 100)}}},
+      {"Space, all frames",
+       {{"Floaters", "%", 2, Better::Lower, metric("/images/floaters", 100)},
+        {"Coverage", "%", 1, Better::Higher, metric("/images/coverage", 100)}}},
       {"Images, held-out frames",
        {{"PSNR", "dB", 2, Better::Higher, metric("/images/held_out/psnr_db")},
         {"SSIM", "", 4, Better::Higher, metric("/images/held_out/ssim")},
@@ -101,7 +101,9 @@ std::vector<MeasureGroup> cost_groups() {
             {"Fed", "", 0, Better::Neither, metric("/frames/fed")},
             {"Keyframes", "", 0, Better::Neither, metric("/frames/keyframes")},
             {"Tracked again from another pose", "", 0, Better::Lower, metric("/frames/retried")},
+            {"Poor", "", 0, Better::Lower, metric("/frames/poor")},
             {"Lost", "", 0, Better::Lower, metric("/frames/lost")},
+            {"With a pose", "%", 1, Better::Higher, metric("/frames/pose_share", 100)},
             {"Skipped", "", 0, Better::Lower, metric("/frames/skipped")}}}};
 }
 
@@ -146,22 +148,12 @@ std::string count_of(const ReportRun& run, const char* key, const char* what) {
   return count > 0 ? fmt::format(", {:.0f} {}", count, what) : "";
 }
 
-/// "good", "fair" or "bad", which name the colours.
-const char* verdict(const ReportRun& run) {
-  const double fed = run.folder.number("/frames/fed"), lost = run.folder.number("/frames/lost");
-  const double error = run.accuracy ? run.accuracy->ate.rmse / std::max(kShortestPath, run.path_length) : 0;
-  const std::string status = run.folder.text("/status");
-  if (status == "failed" || !(fed > 0) || lost > kBadLost * fed || error > kBadError) return "bad";
-  const bool whole = status == "completed" && lost == 0 && run.folder.number("/frames/skipped") == 0;
-  return whole && error <= kFairError ? "good" : "fair";
-}
-
 std::string verdict_text(const ReportRun& run) {
   const std::string status = run.folder.text("/status");
   const double total = run.folder.number("/frames/total");
   std::string text = shown(run.folder.number("/frames/fed"), 0) +
                      (std::isfinite(total) ? fmt::format(" of {:.0f}", total) : "") + " frames tracked";
-  text += count_of(run, "lost", "lost") + count_of(run, "skipped", "skipped");
+  text += count_of(run, "poor", "poor") + count_of(run, "lost", "lost") + count_of(run, "skipped", "skipped");
   if (status != "completed")
     text += "; the run " + (status == "failed" ? "failed: " + run.folder.text("/error") : "was interrupted");
   if (run.accuracy) {
@@ -245,18 +237,17 @@ std::string cards(const ReportRun& run) {
 std::string verdict_section(const std::vector<ReportRun>& runs) {
   std::string html = "<section class=\"verdicts\">\n";
   for (std::size_t i = 0; i < runs.size(); ++i) {
-    const char* level = verdict(runs[i]);
-    html += fmt::format(
-        "<p class=\"verdict {0}\"><b title=\"Good: complete, nothing lost or skipped, error up to {1:.0f} % "
-        "of the path. "
-        "Bad: failed, more than {2:.0f} % lost, or error above {3:.0f} %. Paths below {4:.0f} m count as "
-        "{4:.0f} m.\">{0}</b> ",
-        level, 100 * kFairError, 100 * kBadLost, 100 * kBadError, kShortestPath);
+    const Verdict verdict = judge(runs[i]);
+    html += fmt::format("<p class=\"verdict {0}\"><b title=\"{1}\">{0}</b> ", name_of(verdict.level),
+                        verdict_limits());
     if (runs.size() > 1) {
       html += fmt::format("<i style=\"background:var(--run{})\"></i><strong>{}</strong> ", i % 8,
                           escape_html(runs[i].label));
     }
-    html += escape_html(verdict_text(runs[i])) + "</p>\n";
+    html += escape_html(verdict_text(runs[i]));
+    if (!verdict.reasons.empty())
+      html += escape_html(fmt::format(" Not better because of: {}.", fmt::join(verdict.reasons, ", ")));
+    html += "</p>\n";
     if (!runs[i].dataset) {
       html += fmt::format(
           "<p class=\"note\">Without errors over time and images, since the dataset is not here: {}</p>\n",

@@ -43,7 +43,8 @@ void complete_record(RunRecord& record, const Slam& slam, const FrameSource& sou
 }
 
 /// The frames that the final map is compared with, by their places among those fed: all that have a pose, or
-/// kMostCompared evenly spaced ones where there are more; the kept keyframes where the source cannot be read again.
+/// kMostCompared evenly spaced ones where there are more; the kept keyframes where the source cannot be read
+/// again.
 std::vector<std::size_t> compared_frames(const RunRecord& record, const FrameSource& source,
                                          const KeptKeyframes& kept) {
   std::vector<std::size_t> posed;
