@@ -1,6 +1,5 @@
 #include "engine/slam/pose_covariance.h"
 
-#include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <cmath>
 #include <limits>
@@ -14,6 +13,9 @@ namespace {
 constexpr double kTogether = 150;
 // And by so much what the parts disagree by, for what all of them have in common.
 constexpr double kCommon = 7.5;
+// A direction is open where so much less is known of it than of the best known one: single precision tells no
+// less.
+constexpr double kOpen = 1e-7;
 
 double largest_sigma(const Eigen::Matrix3d& block) {
   if (!block.allFinite()) return std::numeric_limits<double>::infinity();
@@ -25,10 +27,12 @@ double largest_sigma(const Eigen::Matrix3d& block) {
 
 PoseCovariance covariance_of(const PoseEvidence& evidence) {
   if (evidence.information.isZero(0)) return PoseCovariance::Zero();
-  const Eigen::LDLT<PoseEvidence::Matrix> solver(evidence.information);
-  const PoseCovariance inverse = solver.solve(PoseCovariance::Identity());
-  const bool open = solver.info() != Eigen::Success || !solver.isPositive() || !inverse.allFinite();
-  if (open) return std::numeric_limits<double>::infinity() * PoseCovariance::Identity();
+  const Eigen::SelfAdjointEigenSolver<PoseEvidence::Matrix> solver(evidence.information);
+  const auto& values = solver.eigenvalues();
+  if (!(values.minCoeff() > kOpen * values.maxCoeff()))
+    return PoseCovariance::Constant(std::numeric_limits<double>::infinity());
+  const PoseCovariance inverse =
+      solver.eigenvectors() * values.cwiseInverse().asDiagonal() * solver.eigenvectors().transpose();
   return kTogether * inverse + kCommon * inverse * evidence.disagreement * inverse;
 }
 

@@ -72,7 +72,7 @@ TEST_CASE("settings that are changed count from the next frame on") {
 
 TEST_CASE("the keyframes of the window judge the map's Gaussians, unless told not to") {
   SlamSettings settings = quick_settings();
-  settings.first_iterations = settings.mapping_iterations = 2;
+  settings.mapping_iterations = 2;
   // Below what the sensor itself can be off by, four deviations, nothing is uncertain.
   settings.sensor = DepthSensor::TimeOfFlight;
   for (const double above : {0.0, 1e-5}) {

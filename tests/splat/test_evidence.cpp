@@ -2,6 +2,7 @@
 #include <doctest/doctest.h>
 
 #include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
 #include <random>
 
 #include "engine/gpu/recorder.h"
@@ -9,7 +10,6 @@
 #include "engine/splat/gauss_newton_tracker.h"
 #include "engine/splat/pose_evidence.h"
 #include "engine/types/depth_noise.h"
-#include "shaders/shared/align_evidence.h"
 #include "tests/splat/on_device.h"
 #include "tests/splat/wall.h"
 

@@ -103,8 +103,11 @@ TEST_CASE("a verdict names the worst of trajectory, images, depth, floaters and 
     nlohmann::json metrics = read_json(folder / "run/metrics.json");
     metrics["frames"]["lost"] = 0;
     metrics["frames"]["doubtful_end"] = 0;
-    metrics["images"] = {{"psnr_db", 25}, {"psnr_same_exposure_db", 26}, {"depth_l1_m", 0.02},
-                         {"floaters", 0.01}, {"coverage", 0.99}};
+    metrics["images"] = {{"psnr_db", 25},
+                         {"psnr_same_exposure_db", 26},
+                         {"depth_l1_m", 0.02},
+                         {"floaters", 0.01},
+                         {"coverage", 0.99}};
     return metrics;
   }();
   const auto report_of = [&](const std::string& pointer, const nlohmann::json& value) {

@@ -213,8 +213,14 @@ std::string progress_section(const std::vector<ReportRun>& runs) {
   std::string html = "<section><h2>Frame by frame</h2>\n<div class=\"figures\">\n";
   html += error_figures(runs);
   html += FramePlot("Tracking loss", "loss").add(runs, tracked("loss")).mark_lost(runs).figure();
-  html += FramePlot("Depth that the map explains", "%").add(runs, tracked("explained", 100)).mark_lost(runs).figure();
-  html += FramePlot("Standard deviation of the position", "cm").add(runs, tracked("sigma_cm")).mark_lost(runs).figure();
+  html += FramePlot("Depth that the map explains", "%")
+              .add(runs, tracked("explained", 100))
+              .mark_lost(runs)
+              .figure();
+  html += FramePlot("Standard deviation of the position", "cm")
+              .add(runs, tracked("sigma_cm"))
+              .mark_lost(runs)
+              .figure();
   html += FramePlot("Tracking iterations", "iterations").add(runs, tracked("tracking_iterations")).figure();
   html += FramePlot("Gaussians in the map", "thousands").add(runs, column("gaussians", 1e-3)).figure();
   html += FramePlot("Device memory in use", "MB").add(runs, column("device_mb")).figure();

@@ -62,7 +62,8 @@ Verdict judge(const ReportRun& run) {
   const std::string status = run.folder.text("/status");
   if (status == "failed") judge.decide(VerdictLevel::Bad, "the run failed");
   if (!(number("/frames/fed") > 0)) judge.decide(VerdictLevel::Bad, "no frame was tracked");
-  if (status == "interrupted" || status == "running") judge.decide(VerdictLevel::Fair, "the run is not complete");
+  if (status == "interrupted" || status == "running")
+    judge.decide(VerdictLevel::Fair, "the run is not complete");
   judge.weigh(unposed(run), kUnposed, "frames without a pose");
   judge.weigh(number("/frames/doubtful_end"), kDoubtfulEnd, "no certain pose at the end");
   if (run.accuracy) {
@@ -91,9 +92,12 @@ const char* name_of(VerdictLevel level) {
 
 std::string verdict_limits() {
   return fmt::format(
-      "Fair, or bad, from: an error of {:.0f} or {:.0f} % of the path (at least {:.1f} m); any, or {:.0f} % of the "
-      "frames, without a pose; {:.0f} or {:.0f} frames at the end that are poor or lost; renders {:.0f} or {:.0f} dB "
-      "like the images; {:.0f} or {:.0f} cm of depth error; {:.0f} or {:.0f} % floaters, {:.0f} or {:.0f} % holes.",
+      "Fair, or bad, from: an error of {:.0f} or {:.0f} % of the path (at least {:.1f} m); any, or {:.0f} % "
+      "of the "
+      "frames, without a pose; {:.0f} or {:.0f} frames at the end that are poor or lost; renders {:.0f} or "
+      "{:.0f} dB "
+      "like the images; {:.0f} or {:.0f} cm of depth error; {:.0f} or {:.0f} % floaters, {:.0f} or {:.0f} % "
+      "holes.",
       100 * kError.fair, 100 * kError.bad, kShortestPath, 100 * kUnposed.bad, kDoubtfulEnd.fair + 1,
       kDoubtfulEnd.bad + 1, -kDarkness.fair, -kDarkness.bad, 100 * kDepth.fair, 100 * kDepth.bad,
       100 * kFloaters.fair, 100 * kFloaters.bad, 100 * kUncovered.fair, 100 * kUncovered.bad);

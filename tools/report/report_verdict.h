@@ -15,8 +15,8 @@ struct Verdict {
   std::vector<std::string> reasons;  ///< why it is not better; each a part of a sentence
 };
 
-/// Judges a run by its end, its frames, its trajectory, its images, depth and floaters: the worst of these decides.
-/// What a run has no figure of is not judged.
+/// Judges a run by its end, its frames, its trajectory, its images, depth and floaters: the worst of these
+/// decides. What a run has no figure of is not judged.
 Verdict judge(const ReportRun& run);
 
 /// "good", "fair" or "bad", which name the colours too.
