@@ -85,6 +85,7 @@ std::string frames_csv(const std::vector<FrameReport>& frames) {
   for (const FrameReport& frame : frames) {
     add_line(frame_json(frame), [](const auto& column) {
       const Json& value = column.value();
+      if (value.is_string()) return value.template get<std::string>();
       return value.is_boolean() ? std::string(value.template get<bool>() ? "1" : "0") : value.dump();
     });
   }

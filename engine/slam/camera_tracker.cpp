@@ -2,21 +2,22 @@
 
 #include <algorithm>
 #include <numbers>
-#include <numeric>
 
 namespace surefield {
 
 namespace {
 
-constexpr std::size_t kRecentLosses = 10;  // frames whose tracking loss is the measure of a jump
+constexpr std::size_t kRecent = 10;  // good frames that a frame is compared with
 
 // From when on a pose is not to be trusted (docs/method.md, "Knowing when it is wrong").
 constexpr double kPoorPosition = 0.02;                    // standard deviation, metres
 constexpr double kPoorRotation = std::numbers::pi / 180;  // radians
-// Of the depth that is compared, what the map has to explain; good frames have 0.75 and more.
-constexpr double kPoorExplained = 0.65, kLostExplained = 0.5;
-constexpr double kPoorOverlap = 0.5, kLostOverlap = 0.33;  // of all depth, what it has to explain
-constexpr double kPoorThrough = 0.12;                      // of all depth, what may see through the map
+// What the map explains of the depth that is compared, and of all depth, over what it did of late.
+constexpr double kPoorShare = 0.65, kLostShare = 0.5;
+constexpr double kPoorExplained = 0.5, kLostExplained = 0.33;
+constexpr double kPoorThrough = 0.1;  // of all depth, what may see through the map beyond what did of late
+// What a map explains that no frame has been tracked in yet.
+constexpr TrackingFit kFirstFit{.loss = 0, .share = 0.5, .explained = 0.5, .seen_through = 0.25};
 
 constexpr int kFewestInliers = 15;  // features that a pose is told by
 constexpr int kMatched = 10;        // keyframes that a frame's features are compared with, the newest ones
@@ -88,20 +89,32 @@ std::optional<Pose> CameraTracker::pose_by_features(FrameFeatures& features) con
   return pose;
 }
 
+TrackingFit CameraTracker::usual_fit() const {
+  if (recent_.empty()) return kFirstFit;
+  TrackingFit mean;
+  const auto count = static_cast<double>(recent_.size());
+  for (const TrackingFit& fit : recent_) {
+    mean.loss += fit.loss / count;
+    mean.share += fit.share / count;
+    mean.explained += fit.explained / count;
+    mean.seen_through += fit.seen_through / count;
+  }
+  return mean;
+}
+
 TrackingState CameraTracker::state_of(const TrackingResult& result) const {
   if (result.valid_fraction < settings_.lost.minimum_valid) return TrackingState::Lost;
-  if (!recent_losses_.empty()) {
-    const double mean = std::accumulate(recent_losses_.begin(), recent_losses_.end(), 0.0) /
-                        static_cast<double>(recent_losses_.size());
-    if (result.loss > settings_.lost.loss_jump * mean) return TrackingState::Lost;
-  }
+  const TrackingFit usual = usual_fit();
+  if (usual.loss > 0 && result.loss > settings_.lost.loss_jump * usual.loss) return TrackingState::Lost;
   const double share = result.explained / result.valid_fraction;
-  if (share < kLostExplained || result.explained < kLostOverlap) return TrackingState::Lost;
+  if (share < kLostShare * usual.share || result.explained < kLostExplained * usual.explained)
+    return TrackingState::Lost;
   const PoseCovariance covariance = covariance_of(result.evidence);
   const bool certain =
       position_sigma(covariance) < kPoorPosition && rotation_sigma(covariance) < kPoorRotation;
-  const bool explained =
-      share > kPoorExplained && result.explained > kPoorOverlap && result.seen_through < kPoorThrough;
+  const bool explained = share > kPoorShare * usual.share &&
+                         result.explained > kPoorExplained * usual.explained &&
+                         result.seen_through < usual.seen_through + kPoorThrough;
   return certain && explained ? TrackingState::Good : TrackingState::Poor;
 }
 
@@ -120,8 +133,9 @@ bool CameraTracker::sees_unmapped(const FrameReport& report) const {
 void CameraTracker::accept(const FrameReport& report) {
   if (report.state != TrackingState::Good) return;
   if (valid_after_keyframe_ == 0) valid_after_keyframe_ = report.valid_fraction;
-  recent_losses_.push_back(report.tracking_loss);
-  if (recent_losses_.size() > kRecentLosses) recent_losses_.pop_front();
+  recent_.push_back({report.tracking_loss, report.explained / report.valid_fraction, report.explained,
+                     report.seen_through});
+  if (recent_.size() > kRecent) recent_.pop_front();
 }
 
 }  // namespace surefield

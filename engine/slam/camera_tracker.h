@@ -8,6 +8,14 @@
 
 namespace surefield {
 
+/// How well a frame fits the map at its pose.
+struct TrackingFit {
+  double loss = 0;
+  double share = 0;         ///< what the map explains of the depth that is compared
+  double explained = 0;     ///< of all of the sensor's depth
+  double seen_through = 0;  ///< of the same, what sees through the map
+};
+
 /// Finds where the camera is: predicts its pose, tracks it in the map as it stands, and judges how far the
 /// result is to be trusted. Remembers how well it went of late.
 class CameraTracker {
@@ -37,6 +45,7 @@ class CameraTracker {
   void begin_keyframe() { valid_after_keyframe_ = 0; }
 
  private:
+  TrackingFit usual_fit() const;
   TrackingState state_of(const TrackingResult& result) const;
   bool is_better(const TrackingResult& result, const TrackingResult& other) const;
   TrackingResult retry(FrameHandle image, FrameFeatures& features, const TrackingSettings& tracking,
@@ -48,7 +57,7 @@ class CameraTracker {
   const Intrinsics intrinsics_;
   const KeyframeGraph& keyframes_;
   const FrameHistory& history_;
-  std::deque<double> recent_losses_;
+  std::deque<TrackingFit> recent_;          ///< of the last good frames
   double valid_after_keyframe_ = 0;  ///< valid_fraction of the first frame tracked after it; 0: none yet
 };
 

@@ -89,6 +89,7 @@ void bind_densify(ConfigSchema& schema, DensifySettings& densify) {
 }
 
 void bind_spawn(ConfigSchema& schema, SpawnSettings& spawn) {
+  schema.add("spawn.cell", &spawn.cell, Range{1, 16});
   schema.add("spawn.opacity_below", &spawn.opacity_below, kFraction);
   schema.add("spawn.front_factor", &spawn.front_factor, kFactor);
   schema.add("spawn.opacity", &spawn.opacity, Range{0.005, 0.99});

@@ -30,6 +30,7 @@ struct KeyframeSettings {
 
 /// How new Gaussians are born (paper section 3.3): `spawn` in configs/base.yaml.
 struct SpawnSettings {
+  int cell = 4;
   double opacity_below = 0.5;
   double front_factor = 50;
   double opacity = 0.5;

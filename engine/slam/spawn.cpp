@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "engine/slam/birth_cells.h"
 #include "engine/slam/surface_normal.h"
 #include "engine/types/error.h"
 #include "engine/types/median.h"
@@ -51,6 +52,34 @@ BirthShape birth_shape(const Eigen::Vector3d& ray, const Eigen::Vector3d& normal
   return shape;
 }
 
+/// Flags of the pixels that give birth: the map is thin there, or lies far behind.
+std::vector<uint8_t> birth_pixels(const Frame& frame, const RenderImages* rendered,
+                                  const SpawnSettings& settings) {
+  const double margin = rendered ? settings.front_factor * median_depth_error(frame, *rendered, settings) : 0;
+  std::vector<uint8_t> flags(frame.depth.total());
+  for (std::size_t i = 0; i < flags.size(); ++i) {
+    const float z = frame.depth.ptr<float>()[i];
+    if (!(z > 0)) continue;
+    const bool empty = !rendered || rendered->opacity[i] < settings.opacity_below;
+    const bool in_front = rendered && margin > 0 && rendered->depth_normalised[i] - z > margin;
+    flags[i] = empty || in_front;
+  }
+  return flags;
+}
+
+/// Mean depth, metres, and colour, 0 to 255, of a cell.
+std::pair<double, cv::Vec3d> mean_of(const Frame& frame, const BirthCell& cell) {
+  double depth = 0;
+  cv::Vec3d colour(0, 0, 0);
+  for (int v = cell.v; v < cell.v + cell.size; ++v)
+    for (int u = cell.u; u < cell.u + cell.size; ++u) {
+      depth += frame.depth.at<float>(v, u);
+      colour += frame.colour.at<cv::Vec3b>(v, u);
+    }
+  const double count = cell.size * cell.size;
+  return {depth / count, colour / count};
+}
+
 }  // namespace
 
 double scene_extent(const Frame& frame) {
@@ -65,33 +94,29 @@ double scene_extent(const Frame& frame) {
 }
 
 GaussianCloud spawn_gaussians(const Frame& frame, const Camera& camera, const RenderImages* rendered,
-                              const SpawnSettings& settings, const Eigen::Vector3f& gains) {
+                              const SpawnSettings& settings, const DepthNoise& noise,
+                              const Eigen::Vector3f& gains) {
   const Intrinsics& k = camera.intrinsics;
   const Pose camera_to_world = camera.world_to_camera.inverse();
-  const double margin = rendered ? settings.front_factor * median_depth_error(frame, *rendered, settings) : 0;
   const auto logit = static_cast<float>(std::log(settings.opacity / (1 - settings.opacity)));
   GaussianCloud cloud;
-  for (int v = 0; v < k.height; ++v)
-    for (int u = 0; u < k.width; ++u) {
-      const float z = frame.depth.at<float>(v, u);
-      if (!(z > 0)) continue;
-      const std::size_t pixel = static_cast<std::size_t>(v) * k.width + u;
-      const bool empty = !rendered || rendered->opacity[pixel] < settings.opacity_below;
-      const bool in_front = rendered && margin > 0 && rendered->depth_normalised[pixel] - z > margin;
-      if (!empty && !in_front) continue;
-      const Eigen::Vector3d point(z * (u - k.cx) / k.fx, z * (v - k.cy) / k.fy, z);
-      cloud.means.push_back((camera_to_world * point).cast<float>());
-      const double radius = settings.footprint * z * 2 / (k.fx + k.fy);
-      const BirthShape shape = birth_shape(point, surface_normal(frame, k, u, v), radius, settings);
-      cloud.log_scales.push_back(shape.scales.array().log().matrix().cast<float>());
-      const Eigen::Quaternionf q((camera_to_world.rotation() * shape.rotation).cast<float>());
-      cloud.rotations.emplace_back(q.w(), q.x(), q.y(), q.z());
-      cloud.opacity_logits.push_back(logit);
-      cloud.uncertainty.push_back(0.0f);
-      const cv::Vec3b& rgb = frame.colour.at<cv::Vec3b>(v, u);
-      for (int c = 0; c < 3; ++c)
-        cloud.sh.push_back((gains[c] * static_cast<float>(rgb[c]) / 255 - 0.5f) / kShBase);
-    }
+  for (const BirthCell& cell :
+       birth_cells(frame, birth_pixels(frame, rendered, settings), settings.cell, noise)) {
+    const auto [z, rgb] = mean_of(frame, cell);
+    const double half = (cell.size - 1) / 2.0;
+    const Eigen::Vector3d point(z * (cell.u + half - k.cx) / k.fx, z * (cell.v + half - k.cy) / k.fy, z);
+    cloud.means.push_back((camera_to_world * point).cast<float>());
+    const Eigen::Vector3d normal = surface_normal(frame, k, cell.u + cell.size / 2, cell.v + cell.size / 2);
+    const double radius = cell.size * settings.footprint * z * 2 / (k.fx + k.fy);
+    const BirthShape shape = birth_shape(point, normal, radius, settings);
+    cloud.log_scales.push_back(shape.scales.array().log().matrix().cast<float>());
+    const Eigen::Quaternionf q((camera_to_world.rotation() * shape.rotation).cast<float>());
+    cloud.rotations.emplace_back(q.w(), q.x(), q.y(), q.z());
+    cloud.opacity_logits.push_back(logit);
+    cloud.uncertainty.push_back(0.0f);
+    for (int c = 0; c < 3; ++c)
+      cloud.sh.push_back((gains[c] * static_cast<float>(rgb[c]) / 255 - 0.5f) / kShBase);
+  }
   return cloud;
 }
 
