@@ -8,10 +8,9 @@ namespace surefield {
 
 namespace {
 
-constexpr int kEven = 12;          // of 255, by which the colours of a cell differ at most in a channel
-constexpr double kBend = 0.01;     // of the depth, by which the corners of a cell leave a plane at most
-constexpr double kDeviations = 3;  // or, if that is more, deviations of the sensor
-constexpr float kSlope = 0.05f;    // of the depth, by which it differs at most from pixel to pixel
+constexpr int kEven = 12;        // of 255, by which the colours of a cell differ at most in a channel
+constexpr float kBend = 0.01f;   // of the depth, by which the corners of a cell leave a plane at most
+constexpr float kSlope = 0.05f;  // of the depth, by which it differs at most from pixel to pixel
 
 bool has_even_colour(const cv::Mat& colour, const BirthCell& cell) {
   cv::Vec3i low(255, 255, 255), high(0, 0, 0);
@@ -26,15 +25,14 @@ bool has_even_colour(const cv::Mat& colour, const BirthCell& cell) {
   return std::max({range[0], range[1], range[2]}) <= kEven;
 }
 
-/// Whether its corners lie on one surface, and on a plane as far as the sensor can tell: their alternating
-/// sum has twice the deviation of one of them.
-bool is_flat(const cv::Mat& depth, const BirthCell& cell, const DepthNoise& noise) {
+/// Whether its corners lie on one surface, and on a plane.
+bool is_flat(const cv::Mat& depth, const BirthCell& cell) {
   const int right = cell.u + cell.size - 1, bottom = cell.v + cell.size - 1;
   const float a = depth.at<float>(cell.v, cell.u), b = depth.at<float>(cell.v, right);
   const float c = depth.at<float>(bottom, cell.u), d = depth.at<float>(bottom, right);
   const auto [nearest, farthest] = std::minmax({a, b, c, d});
   if (!(farthest < (1 + kSlope * static_cast<float>(cell.size)) * nearest)) return false;
-  return std::abs(a + d - b - c) < std::max(kBend * nearest, 2 * kDeviations * noise.sigma(nearest));
+  return std::abs(a + d - b - c) < kBend * nearest;
 }
 
 /// The flags of a frame's pixels.
@@ -66,8 +64,7 @@ class PixelFlags {
 
 }  // namespace
 
-std::vector<BirthCell> birth_cells(const Frame& frame, std::vector<uint8_t> wanted, int largest,
-                                   const DepthNoise& noise) {
+std::vector<BirthCell> birth_cells(const Frame& frame, std::vector<uint8_t> wanted, int largest) {
   PixelFlags left(std::move(wanted), frame.depth.size());
   std::vector<BirthCell> cells;
   for (int size = largest; size >= 1; size /= 2)
@@ -75,7 +72,7 @@ std::vector<BirthCell> birth_cells(const Frame& frame, std::vector<uint8_t> want
       for (int u = 0; u < frame.depth.cols; u += size) {
         const BirthCell cell{u, v, size};
         if (!left.all(cell)) continue;
-        if (size > 1 && !(has_even_colour(frame.colour, cell) && is_flat(frame.depth, cell, noise))) continue;
+        if (size > 1 && !(has_even_colour(frame.colour, cell) && is_flat(frame.depth, cell))) continue;
         cells.push_back(cell);
         left.clear(cell);
       }

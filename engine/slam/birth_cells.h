@@ -3,7 +3,6 @@
 #include <cstdint>
 #include <vector>
 
-#include "engine/types/depth_noise.h"
 #include "engine/types/frame.h"
 
 namespace surefield {
@@ -15,9 +14,8 @@ struct BirthCell {
 };
 
 /// Divides the pixels that are `wanted` (one flag a pixel, row by row; their depth is valid) into squares:
-/// of `largest` pixels along a side where the colour is even and the depth flat as far as the sensor can
-/// tell, else of half of that, and so on down to single pixels. Larger ones come first, each size row by row.
-std::vector<BirthCell> birth_cells(const Frame& frame, std::vector<uint8_t> wanted, int largest,
-                                   const DepthNoise& noise);
+/// of `largest` pixels along a side where the colour is even and the depth flat, else of half of that, and so
+/// on down to single pixels. Larger ones come first, each size row by row.
+std::vector<BirthCell> birth_cells(const Frame& frame, std::vector<uint8_t> wanted, int largest);
 
 }  // namespace surefield

@@ -11,8 +11,7 @@ namespace surefield {
 void MapUpkeep::begin(const Frame& frame) {
   extent_ = scene_extent(frame);
   const Camera& camera = keyframes_[keyframes_.newest()].camera;
-  engine_.assign(spawn_gaussians(frame, camera, nullptr, settings_.spawn, noise_of(settings_.sensor)),
-                 settings_.depth_model);
+  engine_.assign(spawn_gaussians(frame, camera, nullptr, settings_.spawn), settings_.depth_model);
 }
 
 void MapUpkeep::spawn(const Frame& frame) {
@@ -23,8 +22,7 @@ void MapUpkeep::spawn(const Frame& frame) {
   if (settings_.keyframes.exposure)
     gains = fit_gains(frame, rendered).value_or(keyframes_[std::max(0, newest - 1)].gains);
   keyframes_.set_gains(newest, gains);
-  const GaussianCloud births =
-      spawn_gaussians(frame, camera, &rendered, settings_.spawn, noise_of(settings_.sensor), gains);
+  const GaussianCloud births = spawn_gaussians(frame, camera, &rendered, settings_.spawn, gains);
   region_.settle(keyframes_.all(), keyframes_.similar(), static_cast<uint32_t>(births.size()));
   engine_.insert(births);
 }

@@ -94,14 +94,12 @@ double scene_extent(const Frame& frame) {
 }
 
 GaussianCloud spawn_gaussians(const Frame& frame, const Camera& camera, const RenderImages* rendered,
-                              const SpawnSettings& settings, const DepthNoise& noise,
-                              const Eigen::Vector3f& gains) {
+                              const SpawnSettings& settings, const Eigen::Vector3f& gains) {
   const Intrinsics& k = camera.intrinsics;
   const Pose camera_to_world = camera.world_to_camera.inverse();
   const auto logit = static_cast<float>(std::log(settings.opacity / (1 - settings.opacity)));
   GaussianCloud cloud;
-  for (const BirthCell& cell :
-       birth_cells(frame, birth_pixels(frame, rendered, settings), settings.cell, noise)) {
+  for (const BirthCell& cell : birth_cells(frame, birth_pixels(frame, rendered, settings), settings.cell)) {
     const auto [z, rgb] = mean_of(frame, cell);
     const double half = (cell.size - 1) / 2.0;
     const Eigen::Vector3d point(z * (cell.u + half - k.cx) / k.fx, z * (cell.v + half - k.cy) / k.fy, z);

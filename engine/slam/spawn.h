@@ -1,7 +1,6 @@
 #pragma once
 
 #include "engine/slam/settings.h"
-#include "engine/types/depth_noise.h"
 #include "engine/types/frame.h"
 #include "engine/types/gaussian_cloud.h"
 #include "engine/types/render_images.h"
@@ -18,7 +17,7 @@ double scene_extent(const Frame& frame);
 /// (birth_cells.h): a disc on the surface that the depth around shows, of about their footprint; a sphere
 /// where that shows none. It has their mean colour times `gains` (exposure.h).
 GaussianCloud spawn_gaussians(const Frame& frame, const Camera& camera, const RenderImages* rendered,
-                              const SpawnSettings& settings, const DepthNoise& noise,
+                              const SpawnSettings& settings,
                               const Eigen::Vector3f& gains = Eigen::Vector3f::Ones());
 
 }  // namespace surefield

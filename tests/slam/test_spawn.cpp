@@ -9,7 +9,6 @@ using namespace surefield;
 
 namespace {
 
-const DepthNoise kNoise = noise_of(DepthSensor::Perfect);
 const Intrinsics kIntrinsics{.width = 8, .height = 6, .fx = 10, .fy = 10, .cx = 3.5, .cy = 2.5};
 
 Frame wall(float depth) {
@@ -37,7 +36,7 @@ TEST_CASE("the first frame spawns one Gaussian per valid pixel, where the pixel 
   Camera camera{kIntrinsics};
   camera.world_to_camera.translation() = Eigen::Vector3d(0, 0, 1);
   const SpawnSettings settings{.cell = 1};
-  const GaussianCloud cloud = spawn_gaussians(frame, camera, nullptr, settings, kNoise);
+  const GaussianCloud cloud = spawn_gaussians(frame, camera, nullptr, settings);
   REQUIRE(cloud.size() == 45);
   CHECK(cloud.means[0].isApprox(Eigen::Vector3f(2 * (3 - 3.5f) / 10, 2 * (0 - 2.5f) / 10, 1)));
   CHECK(std::exp(cloud.log_scales[0].x()) == doctest::Approx(0.2));
@@ -45,7 +44,7 @@ TEST_CASE("the first frame spawns one Gaussian per valid pixel, where the pixel 
   CHECK(0.5 + 0.28209479177387814 * cloud.sh[0] == doctest::Approx(1));
   CHECK(0.5 + 0.28209479177387814 * cloud.sh[2] == doctest::Approx(0));
   CHECK(cloud.sh.size() == 135);
-  const GaussianCloud brighter = spawn_gaussians(frame, camera, nullptr, settings, kNoise, {0.5f, 1.5f, 1});
+  const GaussianCloud brighter = spawn_gaussians(frame, camera, nullptr, settings, {0.5f, 1.5f, 1});
   CHECK(0.5 + 0.28209479177387814 * brighter.sh[0] == doctest::Approx(0.5));
   CHECK(0.5 + 0.28209479177387814 * brighter.sh[1] == doctest::Approx(1.5 * 128 / 255));
 }
@@ -54,19 +53,19 @@ TEST_CASE("later frames spawn where the map is thin or lies far behind") {
   const Camera camera{kIntrinsics};
   const SpawnSettings settings{.cell = 1};
   RenderImages images = rendered(2.001f);
-  CHECK(spawn_gaussians(wall(2), camera, &images, settings, kNoise).size() == 0);
+  CHECK(spawn_gaussians(wall(2), camera, &images, settings).size() == 0);
   images.opacity[7] = 0.4f;
-  CHECK(spawn_gaussians(wall(2), camera, &images, settings, kNoise).size() == 1);
+  CHECK(spawn_gaussians(wall(2), camera, &images, settings).size() == 1);
   // The median error is 1 mm: what lies more than 5 cm in front of the map is a new surface, what lies behind
   // is not.
   Frame frame = wall(2);
   frame.depth.at<float>(3, 3) = 1.9f;
   frame.depth.at<float>(3, 4) = 1.99f;
   frame.depth.at<float>(3, 5) = 3.0f;
-  CHECK(spawn_gaussians(frame, camera, &images, settings, kNoise).size() == 2);
+  CHECK(spawn_gaussians(frame, camera, &images, settings).size() == 2);
   SpawnSettings never = settings;
   never.front_factor = 0;
-  CHECK(spawn_gaussians(frame, camera, &images, never, kNoise).size() == 1);
+  CHECK(spawn_gaussians(frame, camera, &images, never).size() == 1);
 }
 
 TEST_CASE(
@@ -87,7 +86,7 @@ TEST_CASE(
       Eigen::AngleAxisd(0.7, Eigen::Vector3d(1, 2, 3).normalized()).toRotationMatrix();
   SpawnSettings settings;
   settings.thickness = 0.1;
-  const GaussianCloud cloud = spawn_gaussians(frame, camera, nullptr, settings, kNoise);
+  const GaussianCloud cloud = spawn_gaussians(frame, camera, nullptr, settings);
   REQUIRE(cloud.size() == 192);
   const int i = 7 * 16 + 11;
   const Eigen::Vector4f& q = cloud.rotations[i];
@@ -104,13 +103,13 @@ TEST_CASE(
   CHECK(std::abs(axes.col(0).dot(ray)) < 1e-3);
 
   settings.thickness = 1;
-  CHECK(spawn_gaussians(frame, camera, nullptr, settings, kNoise).log_scales[i] ==
+  CHECK(spawn_gaussians(frame, camera, nullptr, settings).log_scales[i] ==
         Eigen::Vector3f::Constant(cloud.log_scales[i].x()));
   // Alone among pixels without depth, nothing is known of the surface.
   Frame dot{.colour = frame.colour, .depth = cv::Mat(12, 16, CV_32FC1, cv::Scalar(0))};
   dot.depth.at<float>(2, 5) = 2;
   settings.thickness = 0.1;
-  const GaussianCloud alone = spawn_gaussians(dot, camera, nullptr, settings, kNoise);
+  const GaussianCloud alone = spawn_gaussians(dot, camera, nullptr, settings);
   REQUIRE(alone.size() == 1);
   CHECK(alone.log_scales[0].z() == alone.log_scales[0].x());
 }
@@ -119,7 +118,7 @@ TEST_CASE("even and flat squares of pixels give birth to one Gaussian, with thei
   Frame frame = wall(2);
   frame.colour.at<cv::Vec3b>(0, 0) = cv::Vec3b(255, 118, 10);  // within what counts as even
   const Camera camera{kIntrinsics};
-  const GaussianCloud cloud = spawn_gaussians(frame, camera, nullptr, {}, kNoise);
+  const GaussianCloud cloud = spawn_gaussians(frame, camera, nullptr, {});
   // 8 x 6 pixels: two squares of four, and below them four of two.
   REQUIRE(cloud.size() == 6);
   CHECK(cloud.means[0].isApprox(Eigen::Vector3f(2 * (1.5f - 3.5f) / 10, 2 * (1.5f - 2.5f) / 10, 2)));
@@ -129,12 +128,12 @@ TEST_CASE("even and flat squares of pixels give birth to one Gaussian, with thei
 }
 
 TEST_CASE("a square that is no surface of one colour falls apart, and each pixel is born once") {
-  const auto sizes = [](const Frame& frame, DepthSensor sensor = DepthSensor::Perfect) {
+  const auto sizes = [](const Frame& frame) {
     std::vector<uint8_t> wanted(48, 1);
     wanted[47] = 0;
     std::vector<int> count(5);
     std::vector<int> born(48);
-    for (const BirthCell& cell : birth_cells(frame, wanted, 4, noise_of(sensor))) {
+    for (const BirthCell& cell : birth_cells(frame, wanted, 4)) {
       ++count[cell.size];
       for (int v = cell.v; v < cell.v + cell.size; ++v)
         for (int u = cell.u; u < cell.u + cell.size; ++u) ++born[8 * v + u];
@@ -149,11 +148,11 @@ TEST_CASE("a square that is no surface of one colour falls apart, and each pixel
   Frame stepped = wall(2);
   stepped.depth.colRange(5, 8).setTo(2.5f);
   CHECK(sizes(stepped) == std::vector{0, 15, 4, 0, 1});
-  // What the sensor cannot tell from a plane is one.
-  Frame noisy = wall(4);
-  noisy.depth.at<float>(0, 0) = 4.06f;
-  CHECK(sizes(noisy)[4] == 1);
-  CHECK(sizes(noisy, DepthSensor::StructuredLight)[4] == 2);
+  Frame bent = wall(4);
+  bent.depth.at<float>(0, 0) = 4.045f;  // by more than a hundredth of its depth
+  CHECK(sizes(bent)[4] == 1);
+  bent.depth.at<float>(0, 0) = 4.035f;
+  CHECK(sizes(bent)[4] == 2);
 }
 
 TEST_CASE("images of any size are divided, empty ones too") {
@@ -162,9 +161,9 @@ TEST_CASE("images of any size are divided, empty ones too") {
     frame.colour = cv::Mat(size, CV_8UC3, cv::Scalar(9, 9, 9));
     frame.depth = cv::Mat(size, CV_32FC1, cv::Scalar(1));
     int pixels = 0;
-    for (const BirthCell& cell : birth_cells(frame, std::vector<uint8_t>(frame.depth.total(), 1), 4, kNoise))
+    for (const BirthCell& cell : birth_cells(frame, std::vector<uint8_t>(frame.depth.total(), 1), 4))
       pixels += cell.size * cell.size;
     CHECK(pixels == size.area());
-    CHECK(birth_cells(frame, std::vector<uint8_t>(frame.depth.total()), 4, kNoise).empty());
+    CHECK(birth_cells(frame, std::vector<uint8_t>(frame.depth.total()), 4).empty());
   }
 }
