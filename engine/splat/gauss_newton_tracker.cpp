@@ -29,6 +29,11 @@ constexpr float kUnmeasured = 2;
 // Where the scales of the residuals start: intensity (0 to 1), and distance in standard deviations of depth.
 constexpr glsl::AlignScales kFirstScales{.colour = 0.1f * 0.1f, .depth = 10 * 10};
 
+/// Whether there is anything to interpolate between.
+bool can_interpolate(const ImageSize& size) {
+  return size.width >= 2 && size.height >= 2;
+}
+
 /// How far the last alignment has moved the camera: radians (to first order) or metres, the larger.
 double motion_of(const glsl::AlignState& state) {
   const glsl::vec3 &t = state.translation, &x = state.rotation0, &y = state.rotation1, &z = state.rotation2;
@@ -156,77 +161,68 @@ void GaussNewtonTracker::record_begin(gpu::Recorder& recorder, const Rasteriser&
                      .sensor_pixels = static_cast<float>(frame.valid_pixels)});
 }
 
-void GaussNewtonTracker::record_step(gpu::Recorder& recorder, const Rasteriser& rasteriser,
-                                     const SensorFrame& frame, int index, std::size_t references,
-                                     const TrackingSettings& settings) {
-  const Level& level = levels_[index];
-  if (level.size.width < 2 || level.size.height < 2) return;  // nothing to interpolate between
-  const uint64_t samples = (level.size.pixels() + kStrides[index] - 1) / kStrides[index];
+/// Records the sums of one source over a level; they land as the `part`-th run of partial sums. Returns how
+/// many these are.
+uint32_t GaussNewtonTracker::record_sums(gpu::Recorder& recorder, const SensorFrame& frame, const SumsOf& of,
+                                         const TrackingSettings& settings) {
+  const Level& level = levels_[of.level];
+  const bool render = of.source == 0;
+  const uint64_t samples = (level.size.pixels() + of.stride - 1) / of.stride;
   const auto strips = static_cast<uint32_t>((samples + glsl::ALIGN_STRIP - 1) / glsl::ALIGN_STRIP);
   const uint32_t groups = sums_pass_.groups(strips), count = groups * subgroups_;
-  passes::align_sums::Params params{.width = level.size.width,
-                                    .height = level.size.height,
-                                    .level = static_cast<uint32_t>(index),
-                                    .strips = strips,
-                                    .stride = kStrides[index],
-                                    .weight = 1,
-                                    .balance = static_cast<float>(settings.gauss_newton.balance),
-                                    .source = 0,
-                                    .first = 0,
-                                    .noise = frame.noise};
-  recorder.dispatch(
-      sums_pass_, groups,
-      {.state = state_, .points = level.points, .sensor = level.sensor, .partial_sums = partial_sums_},
-      params);
-  params.weight = static_cast<float>(settings.gauss_newton.reference_weight);
-  for (const auto& points : std::span(level.reference_points).first(references)) {
-    ++params.source;
-    params.first += count;
-    recorder.dispatch(
-        keyframe_sums_pass_, groups,
-        {.state = state_, .points = points, .sensor = level.sensor, .partial_sums = partial_sums_}, params);
-  }
+  const GaussNewtonSettings& weights = settings.gauss_newton;
+  recorder.dispatch(render ? sums_pass_ : keyframe_sums_pass_, groups,
+                    {.state = state_,
+                     .points = render ? level.points : level.reference_points[of.source - 1],
+                     .sensor = level.sensor,
+                     .partial_sums = partial_sums_},
+                    {.width = level.size.width,
+                     .height = level.size.height,
+                     .level = static_cast<uint32_t>(of.level),
+                     .strips = strips,
+                     .stride = of.stride,
+                     .weight = render ? 1.0f : static_cast<float>(weights.reference_weight),
+                     .balance = of.photometric ? 0.0f : static_cast<float>(weights.balance),
+                     .source = of.source,
+                     .first = of.part * count,
+                     .noise = frame.noise});
+  return count;
+}
+
+void GaussNewtonTracker::record_step(gpu::Recorder& recorder, const Rasteriser& rasteriser,
+                                     const SensorFrame& frame, int level, std::size_t references,
+                                     const TrackingSettings& settings) {
+  if (!can_interpolate(levels_[level].size)) return;
+  const auto sources = 1 + static_cast<uint32_t>(references);
+  uint32_t count = 0;
+  for (uint32_t source = 0; source < sources; ++source)
+    count =
+        record_sums(recorder, frame,
+                    {.level = level, .stride = kStrides[level], .source = source, .part = source}, settings);
   recorder.dispatch(
       step_pass_, 1,
       {.status = rasteriser.lists.status, .partial_sums = partial_sums_, .state = state_, .camera = camera_},
-      {.count = count, .sources = 1 + static_cast<uint32_t>(references)});
+      {.count = count, .sources = sources});
 }
 
 /// Records what each source, and its photometric term alone, says of the pose that was just rendered.
 void GaussNewtonTracker::record_evidence(gpu::Recorder& recorder, const Rasteriser& rasteriser,
                                          const SensorFrame& frame, std::size_t references,
                                          const TrackingSettings& settings) {
-  const Level& level = levels_[0];
-  if (level.size.width < 2 || level.size.height < 2) return;  // nothing to interpolate between
+  if (!can_interpolate(levels_[0].size)) return;
   record_points(recorder, rasteriser, settings);
-  const uint64_t samples = (level.size.pixels() + kEvidenceStride - 1) / kEvidenceStride;
-  const auto strips = static_cast<uint32_t>((samples + glsl::ALIGN_STRIP - 1) / glsl::ALIGN_STRIP);
-  const uint32_t groups = sums_pass_.groups(strips), count = groups * subgroups_;
-  passes::align_sums::Params params{.width = level.size.width,
-                                    .height = level.size.height,
-                                    .level = 0,
-                                    .strips = strips,
-                                    .stride = kEvidenceStride,
-                                    .weight = 1,
-                                    .balance = static_cast<float>(settings.gauss_newton.balance),
-                                    .source = 0,
-                                    .first = 0,
-                                    .noise = frame.noise};
-  for (uint32_t part = 0; part < 2 * (1 + references); ++part) {
-    params.source = part / 2;
-    params.first = part * count;
-    params.balance = part % 2 == 0 ? static_cast<float>(settings.gauss_newton.balance) : 0.0f;
-    params.weight = params.source == 0 ? 1.0f : static_cast<float>(settings.gauss_newton.reference_weight);
-    recorder.dispatch(
-        params.source == 0 ? sums_pass_ : keyframe_sums_pass_, groups,
-        {.state = state_,
-         .points = params.source == 0 ? level.points : level.reference_points[params.source - 1],
-         .sensor = level.sensor,
-         .partial_sums = partial_sums_},
-        params);
-  }
+  const uint32_t parts = 2 * (1 + static_cast<uint32_t>(references));
+  uint32_t count = 0;
+  for (uint32_t part = 0; part < parts; ++part)
+    count = record_sums(recorder, frame,
+                        {.level = 0,
+                         .stride = kEvidenceStride,
+                         .source = part / 2,
+                         .part = part,
+                         .photometric = part % 2 == 1},
+                        settings);
   recorder.dispatch(evidence_pass_, 1, {.partial_sums = partial_sums_, .evidence = evidence_},
-                    {.count = count, .parts = 2 * (1 + static_cast<uint32_t>(references))});
+                    {.count = count, .parts = parts});
 }
 
 /// Records the alignment of the frame to the render: on all levels, or on the finest alone.
@@ -279,10 +275,10 @@ TrackingResult GaussNewtonTracker::track(Rasteriser& rasteriser, TrackingLoss& l
   result.valid_fraction = state.best_valid;
   result.explained = state.best_explained;
   result.seen_through = state.best_through;
-  const bool told = frame.size.width >= 2 && frame.size.height >= 2;
-  if (told)
-    result.evidence = evidence_of(evidence_.download(2 * (1 + references.size())),
-                                  kEvidenceStride / static_cast<double>(kStrides[0]));
+  if (can_interpolate(frame.size)) {
+    const auto parts = evidence_.download(2 * (1 + references.size()));
+    result.evidence = evidence_of(parts, static_cast<double>(kEvidenceStride) / kStrides[0]);
+  }
   result.milliseconds =
       std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
   return result;

@@ -51,6 +51,15 @@ class GaussNewtonTracker {
     explicit Level(gpu::Device& device);
   };
 
+  /// Which sums of an alignment.
+  struct SumsOf {
+    int level = 0;
+    uint32_t stride = 1;       ///< of the pixels that take part
+    uint32_t source = 0;       ///< 0: the render; else a keyframe
+    uint32_t part = 0;         ///< where they go
+    bool photometric = false;  ///< of that term alone
+  };
+
   void resize(gpu::Recorder& recorder, const ImageSize& size);
   void record_sensor(gpu::Recorder& recorder, const SensorFrame& frame);
   void record_halves(gpu::Recorder& recorder, gpu::Array<glsl::vec2> Level::*image);
@@ -59,6 +68,8 @@ class GaussNewtonTracker {
   void record_points(gpu::Recorder& recorder, const Rasteriser& rasteriser, const TrackingSettings& settings);
   void record_begin(gpu::Recorder& recorder, const Rasteriser& rasteriser, const TrackingLoss& loss,
                     const SensorFrame& frame, const TrackingSettings& settings);
+  uint32_t record_sums(gpu::Recorder& recorder, const SensorFrame& frame, const SumsOf& of,
+                       const TrackingSettings& settings);
   void record_step(gpu::Recorder& recorder, const Rasteriser& rasteriser, const SensorFrame& frame, int level,
                    std::size_t references, const TrackingSettings& settings);
   void record_evidence(gpu::Recorder& recorder, const Rasteriser& rasteriser, const SensorFrame& frame,

@@ -73,6 +73,7 @@ TEST_CASE("settings that are changed count from the next frame on") {
 TEST_CASE("the keyframes of the window judge the map's Gaussians, unless told not to") {
   SlamSettings settings = quick_settings();
   settings.mapping_iterations = 2;
+  settings.spawn.cell = 1;  // many
   // Below what the sensor itself can be off by, four deviations, nothing is uncertain.
   settings.sensor = DepthSensor::TimeOfFlight;
   for (const double above : {0.0, 1e-5}) {
@@ -89,6 +90,7 @@ TEST_CASE("the keyframes of the window judge the map's Gaussians, unless told no
 TEST_CASE("a run on a small budget of device memory keeps to it, and its map is that of the whole run") {
   SlamSettings settings = quick_settings();
   settings.first_iterations = 20;
+  settings.spawn.cell = 1;  // more than fit
   settings.map_device_mb = 3;
   settings.keyframes.near = 2;
   settings.densify.gradient_threshold = 1e6;  // what is split and cloned may go beyond the budget for a while
@@ -150,6 +152,33 @@ TEST_CASE("a frame that shows something else is reported as lost after re-tries,
   CHECK_FALSE(report.keyframe);
   CHECK(slam.trajectory().size() == 4);
   CHECK_FALSE(slam.feed(*recording.load(4).frame).lost());
+}
+
+TEST_CASE("a camera that was covered while it moved on is found again by its features") {
+  const SyntheticRecording recording(device_options(), {.width = 240, .height = 180, .frames = 40});
+  Slam slam(quick_settings(), recording.intrinsics(), engine_options());
+  for (int i = 0; i < 4; ++i) slam.feed(*recording.load(i).frame);
+  Frame covered = *recording.load(4).frame;
+  covered.depth.setTo(0.3f);
+  covered.colour.setTo(cv::Scalar(200, 150, 120));
+  const FrameReport lost = slam.feed(covered);
+  CHECK(lost.lost());
+  // It has the last pose that was known, and claims no more.
+  CHECK(lost.world_to_camera.matrix() == slam.reports()[3].world_to_camera.matrix());
+  CHECK(slam.trajectory()[4].lost);
+  CHECK_FALSE(slam.trajectory()[3].lost);
+
+  const int away = 30;
+  const Pose motion = recording.ground_truth()[away].camera_to_world.inverse() *
+                      recording.ground_truth()[3].camera_to_world;
+  CHECK(motion.translation().norm() > 0.3);  // too far for an alignment from where it was
+  const FrameReport found = slam.feed(*recording.load(away).frame);
+  CHECK_FALSE(found.lost());
+  CHECK(found.retries > 0);
+  const Pose truth = recording.ground_truth()[away].camera_to_world.inverse() *
+                     recording.ground_truth()[0].camera_to_world;
+  CHECK((found.world_to_camera * truth.inverse()).translation().norm() < 0.03);
+  CHECK(position_sigma(found.covariance) > 0);
 }
 
 TEST_CASE("frames of the wrong size and a first frame without depth are refused and change nothing") {

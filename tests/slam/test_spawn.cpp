@@ -84,7 +84,7 @@ TEST_CASE(
   Camera camera{k};
   camera.world_to_camera.linear() =
       Eigen::AngleAxisd(0.7, Eigen::Vector3d(1, 2, 3).normalized()).toRotationMatrix();
-  SpawnSettings settings;
+  SpawnSettings settings{.cell = 1};
   settings.thickness = 0.1;
   const GaussianCloud cloud = spawn_gaussians(frame, camera, nullptr, settings);
   REQUIRE(cloud.size() == 192);

@@ -92,6 +92,9 @@ TEST_CASE("a run leaves its results, and metrics of the documented schema") {
                                          {"fed", 3},
                                          {"skipped", 0},
                                          {"lost", json["frames"]["lost"]},
+                                         {"poor", json["frames"]["poor"]},
+                                         {"pose_share", 1.0},
+                                         {"doubtful_end", json["frames"]["doubtful_end"]},
                                          {"retried", json["frames"]["retried"]},
                                          {"keyframes", 2}});
   CHECK(json["map"]["gaussians"] == read_ply(folder / "out/map.ply").cloud.size());
