@@ -14,8 +14,11 @@ constexpr double kPoorPosition = 0.02;                    // standard deviation,
 constexpr double kPoorRotation = std::numbers::pi / 180;  // radians
 // What the map explains of the depth that is compared, and of all depth, over what it did of late.
 constexpr double kPoorShare = 0.65, kLostShare = 0.5;
-constexpr double kPoorExplained = 0.5, kLostExplained = 0.33;
+constexpr double kPoorExplained = 0.5, kLostExplained = 0.4;
 constexpr double kPoorThrough = 0.1;  // of all depth, what may see through the map beyond what did of late
+// A poor pose farther from the last known one than this is none.
+constexpr double kPoorMove = 0.3;                          // metres
+constexpr double kPoorTurn = 20 * std::numbers::pi / 180;  // radians
 // What a map explains that no frame has been tracked in yet.
 constexpr TrackingFit kFirstFit{.loss = 0, .share = 0.5, .explained = 0.5, .seen_through = 0.25};
 
@@ -115,7 +118,15 @@ TrackingState CameraTracker::state_of(const TrackingResult& result) const {
   const bool explained = share > kPoorShare * usual.share &&
                          result.explained > kPoorExplained * usual.explained &&
                          result.seen_through < usual.seen_through + kPoorThrough;
-  return certain && explained ? TrackingState::Good : TrackingState::Poor;
+  if (certain && explained) return TrackingState::Good;
+  return is_near_last(result.world_to_camera) ? TrackingState::Poor : TrackingState::Lost;
+}
+
+/// Whether the camera can have come from where it was last known to be.
+bool CameraTracker::is_near_last(const Pose& world_to_camera) const {
+  const Pose motion = world_to_camera * history_.world_to_camera(history_.size() - 1).inverse();
+  const Pose back = motion.inverse();  // its translation is the way of the camera's centre
+  return back.translation().norm() < kPoorMove && Eigen::AngleAxisd(motion.rotation()).angle() < kPoorTurn;
 }
 
 bool CameraTracker::is_better(const TrackingResult& result, const TrackingResult& other) const {

@@ -47,6 +47,7 @@ class CameraTracker {
  private:
   TrackingFit usual_fit() const;
   TrackingState state_of(const TrackingResult& result) const;
+  bool is_near_last(const Pose& world_to_camera) const;
   bool is_better(const TrackingResult& result, const TrackingResult& other) const;
   TrackingResult retry(FrameHandle image, FrameFeatures& features, const TrackingSettings& tracking,
                        TrackingResult best, FrameReport& report) const;

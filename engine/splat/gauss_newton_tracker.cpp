@@ -19,6 +19,8 @@ constexpr int kLaterSteps = 4;
 constexpr uint32_t kStrides[] = {3, 1, 1};
 // And of those every so many tell how certain the pose is.
 constexpr uint32_t kEvidenceStride = 7;
+// It counts as that of so many pixels, however fine the images: what errs together does not become smaller.
+constexpr double kEvidencePixels = 6400;
 // Parts of the evidence: each source as a whole, and its photometric term alone.
 constexpr std::size_t kParts = 2 * glsl::ALIGN_SOURCES;
 // Tracking ends when an alignment has moved the camera by less, radians and metres.
@@ -277,7 +279,8 @@ TrackingResult GaussNewtonTracker::track(Rasteriser& rasteriser, TrackingLoss& l
   result.seen_through = state.best_through;
   if (can_interpolate(frame.size)) {
     const auto parts = evidence_.download(2 * (1 + references.size()));
-    result.evidence = evidence_of(parts, static_cast<double>(kEvidenceStride) / kStrides[0]);
+    result.evidence =
+        evidence_of(parts, kEvidencePixels * kEvidenceStride / static_cast<double>(frame.size.pixels()));
   }
   result.milliseconds =
       std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();

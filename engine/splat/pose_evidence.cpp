@@ -27,17 +27,17 @@ Vector slope_of(const glsl::AlignSums& sums) {
 
 }  // namespace
 
-PoseEvidence evidence_of(std::span<const glsl::AlignSums> parts, double thinned) {
+PoseEvidence evidence_of(std::span<const glsl::AlignSums> parts, double weight) {
   PoseEvidence evidence;
   Vector slope = Vector::Zero();
   for (std::size_t i = 0; i + 1 < parts.size(); i += 2) {
-    evidence.information += thinned * normal_of(parts[i]);
-    slope += thinned * slope_of(parts[i]);
+    evidence.information += weight * normal_of(parts[i]);
+    slope += weight * slope_of(parts[i]);
   }
   const Vector step = -evidence.information.ldlt().solve(slope);
   if (!step.allFinite()) return evidence;
   const auto add = [&](const PoseEvidence::Matrix& normal, const Vector& part) {
-    const Vector left = thinned * (part + normal * step);
+    const Vector left = weight * (part + normal * step);
     evidence.disagreement += left * left.transpose();
   };
   for (std::size_t i = 0; i + 1 < parts.size(); i += 2) {

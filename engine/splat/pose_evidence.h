@@ -19,8 +19,8 @@ struct PoseEvidence {
   Matrix disagreement = Matrix::Zero();
 };
 
-/// Of two sums for each source, that of both terms and that of the photometric one, over every `thinned`-th
-/// of the pixels that an alignment takes.
-PoseEvidence evidence_of(std::span<const glsl::AlignSums> parts, double thinned);
+/// Of two sums for each source, that of both terms and that of the photometric one; all of them count
+/// `weight` times.
+PoseEvidence evidence_of(std::span<const glsl::AlignSums> parts, double weight);
 
 }  // namespace surefield
