@@ -169,14 +169,14 @@ TEST_CASE("a camera that was covered while it moved on is found again by its fea
   CHECK_FALSE(slam.trajectory()[3].lost);
 
   const int away = 30;
-  const Pose motion = recording.ground_truth()[away].camera_to_world.inverse() *
-                      recording.ground_truth()[3].camera_to_world;
+  const Pose motion =
+      recording.ground_truth()[away].camera_to_world.inverse() * recording.ground_truth()[3].camera_to_world;
   CHECK(motion.translation().norm() > 0.3);  // too far for an alignment from where it was
   const FrameReport found = slam.feed(*recording.load(away).frame);
   CHECK_FALSE(found.lost());
   CHECK(found.retries > 0);
-  const Pose truth = recording.ground_truth()[away].camera_to_world.inverse() *
-                     recording.ground_truth()[0].camera_to_world;
+  const Pose truth =
+      recording.ground_truth()[away].camera_to_world.inverse() * recording.ground_truth()[0].camera_to_world;
   CHECK((found.world_to_camera * truth.inverse()).translation().norm() < 0.03);
   CHECK(position_sigma(found.covariance) > 0);
 }
