@@ -144,7 +144,7 @@ TEST_CASE("resizing leaves slanted planes where they are, and does not blend sur
   // 1 / depth is linear over the image of a plane.
   const auto plane = [](double x, double y) { return 1 / (0.5 + 0.002 * x - 0.0015 * y); };
   Frame frame;
-  frame.colour.create(height, width, CV_8UC3);
+  frame.colour = cv::Mat::zeros(height, width, CV_8UC3);
   frame.depth.create(height, width, CV_32FC1);
   for (int y = 0; y < height; ++y)
     for (int x = 0; x < width; ++x) frame.depth.at<float>(y, x) = static_cast<float>(plane(x, y));
