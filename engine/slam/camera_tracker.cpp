@@ -30,7 +30,7 @@ constexpr int kMatched = 10;        // keyframes that a frame's features are com
 /// Constant velocity: the last pose moved on by the last motion. After a lost frame, the last pose that was
 /// known.
 Pose CameraTracker::predict() const {
-  std::size_t n = history_.size();
+  const std::size_t n = history_.size();
   if (n < 2) return history_.world_to_camera(n - 1);
   const Pose last = history_.world_to_camera(n - 1);
   if (history_.report(n - 1).lost() || history_.report(n - 2).lost()) return last;

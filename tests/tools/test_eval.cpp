@@ -137,6 +137,20 @@ TEST_CASE("eval renders the map of a run with the depth model of that run") {
   CHECK(depth_error() != doctest::Approx(expected).epsilon(1e-3));
 }
 
+TEST_CASE("eval leaves lost frames out, and says how many there are") {
+  const TemporaryFolder folder;
+  const std::string truth = "0 0 0 0 0 0 0 1\n1 1 0 0 0 0 0 1\n2 1 1 0 0 0 0 1\n3 0 1 0 0 0 0 1\n";
+  folder.write("truth.txt", truth);
+  folder.write("estimate.txt", truth + "# lost\n4 9 9 9 0 0 0 1\n");
+  const Outcome outcome =
+      surefield_command({"eval", "--trajectory", folder / "estimate.txt", "--ground-truth",
+                         folder / "truth.txt", "--json", folder / "errors.json"},
+                        folder.path());
+  REQUIRE_MESSAGE(outcome.code == 0, outcome.err);
+  CHECK(contains(outcome.out, "poses compared   4 of 5, of which 1 are lost"));
+  CHECK(contains(read_file(folder / "errors.json"), "\"lost\": 1"));
+}
+
 TEST_CASE("eval reads trajectories of other systems: comments, stamps apart from the truth's") {
   const TemporaryFolder folder;
   write_trajectory(folder / "truth.txt", square(0));

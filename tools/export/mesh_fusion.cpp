@@ -53,7 +53,7 @@ struct FusionImages {
 const StampedPose* nearest_pose(const Trajectory& trajectory, double timestamp) {
   const StampedPose* nearest = nullptr;
   for (const StampedPose& pose : trajectory) {
-    if (!pose.is_finite() || std::abs(pose.timestamp - timestamp) > kStampTolerance) continue;
+    if (!pose.is_finite() || pose.lost || std::abs(pose.timestamp - timestamp) > kStampTolerance) continue;
     if (nearest && std::abs(nearest->timestamp - timestamp) <= std::abs(pose.timestamp - timestamp)) continue;
     nearest = &pose;
   }

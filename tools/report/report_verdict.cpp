@@ -22,7 +22,7 @@ constexpr Limits kDoubtfulEnd{.fair = 2, .bad = 9};  // frames at the end that a
 constexpr Limits kDepth{.fair = 0.1, .bad = 0.3};    // metres
 constexpr Limits kFloaters{.fair = 0.05, .bad = 0.2};
 constexpr Limits kUncovered{.fair = 0.1, .bad = 0.3};
-constexpr Limits kDarkness{.fair = -15, .bad = -10};  // less than so many decibels, at each frame's exposure
+constexpr Limits kUnlike{.fair = -15, .bad = -10};  // less than so many decibels, at each frame's exposure
 
 /// The worst of what was judged so far.
 class Judge {
@@ -71,7 +71,7 @@ Verdict judge(const ReportRun& run) {
                 "the error of the positions");
   }
   const double same_exposure = number("/images/psnr_same_exposure_db");
-  judge.weigh(-(std::isfinite(same_exposure) ? same_exposure : number("/images/psnr_db")), kDarkness,
+  judge.weigh(-(std::isfinite(same_exposure) ? same_exposure : number("/images/psnr_db")), kUnlike,
               "renders that differ from the images");
   judge.weigh(number("/images/depth_l1_m"), kDepth, "the error of the depth");
   judge.weigh(number("/images/floaters"), kFloaters, "floaters");
@@ -91,16 +91,16 @@ const char* name_of(VerdictLevel level) {
 }
 
 std::string verdict_limits() {
-  return fmt::format(
-      "Fair, or bad, from: an error of {:.0f} or {:.0f} % of the path (at least {:.1f} m); any, or {:.0f} % "
-      "of the "
-      "frames, without a pose; {:.0f} or {:.0f} frames at the end that are poor or lost; renders {:.0f} or "
-      "{:.0f} dB "
-      "like the images; {:.0f} or {:.0f} cm of depth error; {:.0f} or {:.0f} % floaters, {:.0f} or {:.0f} % "
-      "holes.",
-      100 * kError.fair, 100 * kError.bad, kShortestPath, 100 * kUnposed.bad, kDoubtfulEnd.fair + 1,
-      kDoubtfulEnd.bad + 1, -kDarkness.fair, -kDarkness.bad, 100 * kDepth.fair, 100 * kDepth.bad,
-      100 * kFloaters.fair, 100 * kFloaters.bad, 100 * kUncovered.fair, 100 * kUncovered.bad);
+  std::string text =
+      fmt::format("Fair, or bad, from: an error of {:.0f} or {:.0f} % of the path (at least {:.1f} m)",
+                  100 * kError.fair, 100 * kError.bad, kShortestPath);
+  text += fmt::format("; any, or {:.0f} % of the frames, without a pose", 100 * kUnposed.bad);
+  text += fmt::format("; {:.0f} or {:.0f} frames at the end that are poor or lost", kDoubtfulEnd.fair + 1,
+                      kDoubtfulEnd.bad + 1);
+  text += fmt::format("; renders {:.0f} or {:.0f} dB like the images", -kUnlike.fair, -kUnlike.bad);
+  text += fmt::format("; {:.0f} or {:.0f} cm of depth error", 100 * kDepth.fair, 100 * kDepth.bad);
+  text += fmt::format("; {:.0f} or {:.0f} % floaters", 100 * kFloaters.fair, 100 * kFloaters.bad);
+  return text + fmt::format("; {:.0f} or {:.0f} % holes.", 100 * kUncovered.fair, 100 * kUncovered.bad);
 }
 
 }  // namespace surefield

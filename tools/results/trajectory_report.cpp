@@ -9,6 +9,7 @@ namespace surefield {
 nlohmann::ordered_json trajectory_json(const TrajectoryMetrics& metrics) {
   nlohmann::ordered_json json = {{"pairs", metrics.pairs},
                                  {"estimates", metrics.estimates},
+                                 {"lost", metrics.lost},
                                  {"ate_rmse_m", metrics.ate.rmse},
                                  {"ate_mean_m", metrics.ate.mean},
                                  {"ate_median_m", metrics.ate.median},
@@ -40,7 +41,8 @@ std::string trajectory_table(const TrajectoryMetrics& metrics) {
                        error.rotation * 180 / std::numbers::pi);
   };
   std::string text;
-  text += fmt::format("poses compared   {} of {}\n", metrics.pairs, metrics.estimates);
+  const std::string lost = metrics.lost > 0 ? fmt::format(", of which {} are lost", metrics.lost) : "";
+  text += fmt::format("poses compared   {} of {}{}\n", metrics.pairs, metrics.estimates, lost);
   text += fmt::format("ATE RMSE         {:.3f} cm   (mean {:.3f}, median {:.3f}, max {:.3f})\n",
                       centimetres(metrics.ate.rmse), centimetres(metrics.ate.mean),
                       centimetres(metrics.ate.median), centimetres(metrics.ate.max));
