@@ -62,9 +62,9 @@ class Slam {
   /// any more, and gpu::Error; see above for what has changed then.
   FrameReport feed(const Frame& frame, const Tracked& tracked = {});
 
-  /// Call after the last frame: unless it is a keyframe, it becomes one, so that the map shows all that was
-  /// seen. If the light has changed, the map is given the exposure that most frames have. No frame may be fed
-  /// after it; calling it again does nothing.
+  /// Call after the last frame: unless it is a keyframe, or its pose is not good, it becomes one, so that the
+  /// map shows all that was seen. If the light has changed, the map is given the exposure that most frames
+  /// have. No frame may be fed after it; calling it again does nothing.
   void finish();
 
   /// From now on mapping steps that remain are left out, those of a frame in work too, so that it ends soon:

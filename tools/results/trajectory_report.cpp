@@ -41,7 +41,7 @@ std::string trajectory_table(const TrajectoryMetrics& metrics) {
                        error.rotation * 180 / std::numbers::pi);
   };
   std::string text;
-  const std::string lost = metrics.lost > 0 ? fmt::format(", of which {} are lost", metrics.lost) : "";
+  const std::string lost = metrics.lost > 0 ? fmt::format(", {} lost", metrics.lost) : "";
   text += fmt::format("poses compared   {} of {}{}\n", metrics.pairs, metrics.estimates, lost);
   text += fmt::format("ATE RMSE         {:.3f} cm   (mean {:.3f}, median {:.3f}, max {:.3f})\n",
                       centimetres(metrics.ate.rmse), centimetres(metrics.ate.mean),
