@@ -95,7 +95,7 @@ PreparedScene prepare_scene(const Recording& recording, const Trajectory* truth,
   bool posed = false;
   for (int i = 0; i < recording.count() && !posed; ++i)
     posed = scene.track.at(recording.timestamp(i)).has_value();
-  if (!posed) scene.track = PoseTrack(Trajectory{});
+  if (!posed) scene.track = PoseTrack();
   Loader loader(recording, prepared);
   const bool alone = scene.track.empty();
   for (int i : spread(recording.count(), alone ? kFramesAlone : kPairs)) {

@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "engine/eval/pose_track.h"
 #include "engine/sources/recording.h"
 
 namespace surefield {
@@ -56,24 +57,6 @@ std::vector<DepthPoint> depth_rims(const cv::Mat& depth);
 std::optional<double> mean_contrast(const cv::Mat& contrast, const std::vector<DepthPoint>& rims,
                                     const cv::Point2d& shift);
 
-/// The true poses of the tracked camera at any time.
-class PoseTrack {
- public:
-  /// `trajectory` is of the tracked camera; poses that are not finite are left out.
-  explicit PoseTrack(const Trajectory& trajectory);
-
-  /// Camera to world at `time` between two poses that are not far apart; nullopt elsewhere.
-  std::optional<Eigen::Isometry3d> at(double time) const;
-
-  bool empty() const { return poses_.empty(); }
-  /// Median time between poses, seconds.
-  double spacing() const { return spacing_; }
-
- private:
-  Trajectory poses_;
-  double spacing_ = 0;
-};
-
 /// Two frames that see much of the same, by their places in the list of frames.
 struct FramePair {
   std::size_t from = 0;
@@ -85,7 +68,7 @@ struct CheckScene {
   Intrinsics intrinsics;
   std::vector<CheckFrame> frames;
   std::vector<FramePair> pairs;
-  PoseTrack track{Trajectory{}};
+  PoseTrack track;
 };
 
 /// Mean difference of texture, grey levels, between each pair's first frame warped into the second and the

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <numbers>
 
+#include "engine/slam/depth_timing.h"
+
 namespace surefield {
 
 namespace {
@@ -35,6 +37,16 @@ Pose CameraTracker::predict() const {
   const Pose last = history_.world_to_camera(n - 1);
   if (history_.report(n - 1).lost() || history_.report(n - 2).lost()) return last;
   return last * history_.world_to_camera(n - 2).inverse() * last;
+}
+
+std::optional<Pose> CameraTracker::motion_of_depth(const Frame& frame) const {
+  const std::size_t n = history_.size();
+  if (frame.depth_after == 0 || n < 2) return std::nullopt;
+  const FrameReport &last = history_.report(n - 1), &before = history_.report(n - 2);
+  const double between = last.timestamp - before.timestamp;
+  if (last.lost() || before.lost() || !(between > 0)) return std::nullopt;
+  const Pose motion = history_.world_to_camera(n - 1) * history_.world_to_camera(n - 2).inverse();
+  return part_of_motion(motion, -frame.depth_after / between);
 }
 
 void CameraTracker::track(FrameHandle image, FrameFeatures& features, const Pose& start,

@@ -31,6 +31,9 @@ class CameraTracker {
 
   /// Where the next frame is thought to be, world to camera. Needs a frame before it.
   Pose predict() const;
+  /// From the camera at the time of the frame's depth image to that at the time of its colour image, if both stamps are
+  /// known to differ, by the last motion.
+  std::optional<Pose> motion_of_depth(const Frame& frame) const;
   /// Tracks a frame from `start`, and where that fails from other poses, one of them told by its features;
   /// fills the report's pose and what it says of tracking. The pose of a lost frame is `start`. Changes
   /// nothing else.

@@ -10,6 +10,11 @@ void KeyframeGraph::add(Keyframe keyframe, Eigen::VectorXf descriptor) {
   covisibility_.add(std::move(descriptor));
 }
 
+void KeyframeGraph::forget_depth(int k, const std::vector<uint8_t>& cells) {
+  for (std::size_t i = 0; i < cells.size(); ++i)
+    if (cells[i]) keyframes_[k].grid.depth[i] = 0;
+}
+
 void KeyframeGraph::move(int k, const Pose& world_to_camera) {
   Pose& pose = keyframes_[k].camera.world_to_camera;
   if (pose.matrix() == world_to_camera.matrix()) return;

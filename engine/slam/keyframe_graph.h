@@ -33,6 +33,9 @@ class KeyframeGraph {
   void add(Keyframe keyframe, Eigen::VectorXf descriptor);
   void set_gains(int k, const Eigen::Vector3f& gains) { keyframes_[k].gains = gains; }
 
+  /// A keyframe's grid has no depth any more in the cells that are flagged.
+  void forget_depth(int k, const std::vector<uint8_t>& cells);
+
   /// Refines the pose of a keyframe.
   void move(int k, const Pose& world_to_camera);
   /// The keyframes whose poses have become others since the last call, in no particular order.

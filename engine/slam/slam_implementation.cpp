@@ -6,6 +6,8 @@
 #include <limits>
 #include <utility>
 
+#include "engine/slam/depth_timing.h"
+#include "engine/slam/moved_things.h"
 #include "engine/slam/spawn.h"
 #include "engine/types/error.h"
 
@@ -49,7 +51,8 @@ void Slam::Implementation::check_images(const Frame& frame) const {
 
 Frame Slam::Implementation::within_reach(const Frame& frame) const {
   const double limit = settings.depth_max > 0 ? settings.depth_max : std::numeric_limits<float>::max();
-  Frame reached{frame.index, frame.timestamp, frame.colour, cv::Mat::zeros(frame.depth.size(), CV_32FC1)};
+  Frame reached = frame;
+  reached.depth = cv::Mat(frame.depth.size(), CV_32FC1, cv::Scalar(0));  // not into the buffer of the caller
   float nearest = std::numeric_limits<float>::infinity(), farthest = 0;
   bool any = false;
   for (int v = 0; v < frame.depth.rows; ++v)
@@ -68,6 +71,8 @@ Frame Slam::Implementation::within_reach(const Frame& frame) const {
         "depth_unit, the metres for one step of the depth images, right, and is depth_max what you want?",
         settings.depth_max, nearest, farthest));
   }
+  if (const auto motion = tracker.motion_of_depth(frame))
+    reached.depth = move_depth(reached.depth, intrinsics, *motion);
   return reached;
 }
 
@@ -162,14 +167,15 @@ void Slam::Implementation::extend_map(const Frame& frame, Sighting sighting) {
     map_keyframe(frame, std::move(sighting));
   } else {
     // Copies of the images: the caller may reuse its own.
-    pending.emplace(PendingFrame{{frame.index, frame.timestamp, frame.colour.clone(), frame.depth.clone()},
+    pending.emplace(PendingFrame{{frame.index, frame.timestamp, frame.colour.clone(), frame.depth.clone(), frame.depth_after},
                                  std::move(sighting)});
   }
 }
 
 void Slam::Implementation::map_keyframe(const Frame& frame, Sighting sighting) {
-  const Frame mapped = add_keyframe(frame, std::move(sighting));
+  Frame mapped = add_keyframe(frame, std::move(sighting));
   FrameReport& report = history.last_report();
+  hide_moved(mapped);
   upkeep.spawn(mapped);
   const KeyframeWindow window = keyframes.choose_window(upkeep.near());
   const MappingPlan plan = upkeep.plan(window);
@@ -203,6 +209,31 @@ Frame Slam::Implementation::add_keyframe(const Frame& frame, Sighting sighting) 
   history.make_last_keyframe();
   tracker.begin_keyframe();
   return mapped;
+}
+
+void Slam::Implementation::hide_moved(Frame& mapped) {
+  const DepthNoise noise = noise_of(settings.sensor);
+  const auto view_of_keyframe = [&](int k) { return DepthView{keyframes[k].grid, keyframes[k].camera}; };
+  const int newest = keyframes.newest();
+  std::vector<DepthView> others;
+  for (int k : keyframes.window()) others.push_back(view_of_keyframe(k));
+  const DepthView own = view_of_keyframe(newest);
+  const std::vector<uint8_t> cells = moved_cells(own, others, noise);
+  for (int k : keyframes.window()) hide(k, moved_cells(view_of_keyframe(k), std::span(&own, 1), noise));
+  if (cells.empty()) return;
+  hide(newest, cells);
+  mapped.depth = mapped.depth.clone();
+  mapped.depth.setTo(0, cv::Mat(mapped.depth.size(), CV_8U,
+                                pixels_of_cells(cells, keyframes[newest].grid, mapped.depth.size()).data()));
+}
+
+void Slam::Implementation::hide(int k, const std::vector<uint8_t>& cells) {
+  if (cells.empty()) return;
+  const Keyframe& keyframe = keyframes[k];
+  const auto pixels = pixels_of_cells(cells, keyframe.grid, {intrinsics.width, intrinsics.height});
+  engine.hide(keyframe.frame, pixels);
+  if (keyframe.tracked != keyframe.frame) engine.hide(keyframe.tracked, pixels);
+  keyframes.forget_depth(k, cells);
 }
 
 void Slam::Implementation::settle_exposure() {

@@ -104,6 +104,10 @@ struct Slam::Implementation {
   void extend_map(const Frame& frame, Sighting sighting);
   void map_keyframe(const Frame& frame, Sighting sighting);
   Frame add_keyframe(const Frame& frame, Sighting sighting);
+  /// Takes what moves out of the newest keyframe, whose images `mapped` are, and out of those that were last optimised
+  /// together, where the one looks through what the other shows.
+  void hide_moved(Frame& mapped);
+  void hide(int k, const std::vector<uint8_t>& cells);
   void measure();
   /// Gives the map the exposure that most frames have.
   void settle_exposure();

@@ -94,6 +94,11 @@ void SplatEngine::release(FrameHandle frame) {
   implementation_->frames.release(frame);
 }
 
+void SplatEngine::hide(FrameHandle frame, std::span<const uint8_t> pixels) {
+  implementation_->frames.hide(frame, pixels);
+  implementation_->gauss_newton_tracker.drop(frame);
+}
+
 void SplatEngine::assign(const GaussianCloud& cloud, DepthModel depth_model) {
   implementation_->map.assign(cloud, depth_model);
   implementation_->blocks.clear();

@@ -6,6 +6,12 @@
 
 namespace surefield {
 
+namespace {
+
+constexpr float kHidden = -1;  // in the place of a depth: see SensorFrame
+
+}  // namespace
+
 /// Makes all places at once, so that a later frame allocates nothing.
 void FrameStore::make_places(const ImageSize& size) {
   places_.reserve(kPlaces);
@@ -35,6 +41,25 @@ void FrameStore::release(FrameHandle frame) {
 }
 
 const SensorFrame& FrameStore::on_device(FrameHandle frame) {
+  return place_of(frame).images;
+}
+
+void FrameStore::hide(FrameHandle frame, std::span<const uint8_t> pixels) {
+  SensorFrame& images = place_of(frame).images;
+  if (pixels.size() != images.size.pixels()) throw UsageError("the flags are not of the frame's size");
+  std::vector<float> depth = images.depth.download(pixels.size());
+  for (std::size_t i = 0; i < pixels.size(); ++i) {
+    if (!pixels[i]) continue;
+    images.valid_pixels -= depth[i] > 0;
+    depth[i] = kHidden;
+  }
+  images.depth.upload(depth);
+  Entry& entry = entries_.at(frame);
+  entry.valid_pixels = images.valid_pixels;
+  entry.packed.reset();
+}
+
+FrameStore::Place& FrameStore::place_of(FrameHandle frame) {
   const auto held = entries_.find(frame);
   if (held == entries_.end()) throw UsageError("the engine does not hold this frame");
   Entry& entry = held->second;
@@ -46,7 +71,7 @@ const SensorFrame& FrameStore::on_device(FrameHandle frame) {
   }
   Place& place = places_[*entry.place];
   place.last_use = ++uses_;
-  return place.images;
+  return place;
 }
 
 /// A place for another frame: a free one, else that of the frame that was not asked for the longest.

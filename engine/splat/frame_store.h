@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <unordered_map>
 
 #include "engine/splat/packed_images.h"
@@ -19,6 +20,8 @@ class FrameStore {
 
   FrameHandle load(const FrameView& view);
   void release(FrameHandle frame);
+  /// Takes the flagged pixels out of a frame; see SplatEngine::hide().
+  void hide(FrameHandle frame, std::span<const uint8_t> pixels);
 
   /// The frame on the device, brought there if need be; the reference is good for the next kPlaces - 1 calls.
   /// Throws UsageError for a frame that is not held.
@@ -37,6 +40,7 @@ class FrameStore {
     std::optional<FrameHandle> frame;
     uint64_t last_use = 0;
   };
+  Place& place_of(FrameHandle frame);
   void make_places(const ImageSize& size);
   std::size_t free_place();
   void pack(Place& place);

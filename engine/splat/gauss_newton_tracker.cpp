@@ -149,6 +149,11 @@ void GaussNewtonTracker::hold(std::size_t place, FrameHandle handle, const Senso
   held_[place] = handle;
 }
 
+void GaussNewtonTracker::drop(FrameHandle frame) {
+  for (auto& held : held_)
+    if (held == frame) held.reset();
+}
+
 void GaussNewtonTracker::record_begin(gpu::Recorder& recorder, const Rasteriser& rasteriser,
                                       const TrackingLoss& loss, const SensorFrame& frame,
                                       const TrackingSettings& settings) {

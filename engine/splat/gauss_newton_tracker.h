@@ -33,6 +33,9 @@ class GaussNewtonTracker {
   /// places.
   void hold(std::size_t place, FrameHandle handle, const SensorFrame& frame, const Intrinsics& intrinsics);
 
+  /// The images of a frame have changed: no place holds it any more.
+  void drop(FrameHandle frame);
+
   /// Tracks `frame` from the pose of `start`; `references` are the cameras of the frames in the first places.
   TrackingResult track(Rasteriser& rasteriser, TrackingLoss& loss, const GaussianMap& map,
                        const SensorFrame& frame, const Camera& start, const TrackingSettings& settings,

@@ -10,6 +10,7 @@ struct Frame {
   double timestamp = 0;  ///< seconds; the original frame index where the dataset has no stamps
   cv::Mat colour;        ///< CV_8UC3, RGB
   cv::Mat depth;         ///< CV_32FC1, metres along camera z; 0 where invalid
+  double depth_after = 0;  ///< seconds from when the colour image was taken to when the depth image was
 };
 
 }  // namespace surefield

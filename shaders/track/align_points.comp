@@ -13,7 +13,8 @@ void main() {
   const uint x = at.x, y = at.y;
   const vec4 k = intrinsics_at(camera[0], params.level);
   const vec2 pixel = vec2(x, y);
-  AlignPoint point = AlignPoint(image[i].x, image[i].y > 0 ? image[i].y : -params.unknown, vec3(0));
+  const float measured = image[i].y;
+  AlignPoint point = AlignPoint(image[i].x, measured > 0 ? measured : measured < 0 ? 0 : -params.unknown, vec3(0));
   const bool inside = x > 0 && y > 0 && x + 1 < params.width && y + 1 < params.height;
   const uint row = inside ? params.width : 0, column = inside ? 1 : 0;
   const float left = image[i - column].y, right = image[i + column].y;

@@ -107,6 +107,7 @@ TEST_CASE("TUM: seconds added to the stamps of depth images change which colour 
   CHECK(later.recording->depth_timestamp(0) == doctest::Approx(0.985));
   CHECK(later.recording->timestamp(1) == 2.0);
   CHECK(later.recording->depth_timestamp(1) == doctest::Approx(2.01));
+  CHECK(later.recording->load(0).frame->depth_after == doctest::Approx(-0.015));
 }
 
 TEST_CASE("TUM: the camera comes from the folder's name or from cam_params.json") {

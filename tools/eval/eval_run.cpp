@@ -63,13 +63,15 @@ std::vector<QualityView> true_views(const RunFolder& run, const Dataset& dataset
 }
 
 std::optional<MapQuality> measure_images(const EvalRunOptions& options, const RunFolder& run,
-                                         const Recording& recording, const std::vector<QualityView>& views) {
+                                         const Recording& recording, const std::vector<QualityView>& views,
+                                         const Trajectory& trajectory) {
   std::optional<Lpips> lpips;
   if (!options.lpips.empty()) lpips.emplace(options.lpips);
   SplatEngine engine(options.engine);
   assign_map(engine, run);
   QualityInput input{.frame = frames_of(recording, run.number("/dataset/scale")),
                      .views = views,
+                     .track = PoseTrack(trajectory),
                      .noise = noise_of(settings_of(run).sensor),
                      .render = [&](const Camera& camera) { return engine.render(camera); }};
   if (lpips) input.lpips = &*lpips;
@@ -123,11 +125,12 @@ int evaluate_run(const EvalRunOptions& options) {
   const Dataset dataset = open_dataset_of(run, options.dataset);
   const TrajectoryErrors errors = measure_trajectory(run, dataset);
   const std::optional<MapQuality> images =
-      measure_images(options, run, *dataset.recording, views_of(run, *dataset.recording));
+      measure_images(options, run, *dataset.recording, views_of(run, *dataset.recording),
+                     of_tracked_camera(run.trajectory, *dataset.recording));
   std::optional<MapQuality> views;
   if (!options.views.empty()) {
     const Dataset other = open_dataset(options.views);
-    views = measure_images(options, run, *other.recording, true_views(run, dataset, other));
+    views = measure_images(options, run, *other.recording, true_views(run, dataset, other), {});
   }
   if (!options.json.empty()) {
     auto json = to_json(run, errors, images);

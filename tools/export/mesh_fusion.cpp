@@ -9,6 +9,7 @@
 #include <optional>
 #include <string>
 
+#include "engine/eval/pose_track.h"
 #include "engine/formats/glb.h"
 #include "engine/io/trajectory_file.h"
 #include "engine/types/error.h"
@@ -79,12 +80,20 @@ Trajectory read_poses(const std::string& where, const Dataset& dataset) {
 
 /// The frames of a run that were not lost, at its poses.
 std::vector<FusionView> views_of_run(const RunFolder& run, const Recording& recording) {
-  const std::vector<QualityView> all = views_of(run, recording);
   std::vector<FusionView> views;
-  for (std::size_t i = 0; i < all.size(); ++i) {
-    if (!run.metrics["per_frame"][i].value("lost", false)) views.push_back({all[i].index, all[i].camera});
-  }
+  for (const QualityView& view : views_of(run, recording)) views.push_back({view.index, view.camera});
   return views;
+}
+
+/// Moves the views to where the camera was when their depth images were taken.
+void look_when_depth_was_taken(std::vector<FusionView>& views, const Trajectory& trajectory,
+                               const Recording& recording) {
+  const PoseTrack track(trajectory);
+  for (FusionView& view : views) {
+    const double stamp = recording.depth_timestamp(view.index);
+    if (stamp == recording.timestamp(view.index)) continue;
+    if (const auto pose = track.at(stamp)) view.camera.world_to_camera = pose->inverse();
+  }
 }
 
 SlamSettings settings_for(const Input& input) {
@@ -140,10 +149,13 @@ Input open_input(const MeshOptions& options) {
   const bool rendered = options.source == MeshSource::Rendered;
   const double scale = rendered ? input.run->number("/dataset/scale") : 1;
   const Intrinsics intrinsics = recording.intrinsics().scaled(scale);
-  const std::vector<FusionView> views =
-      options.trajectory.empty()
-          ? views_of_run(*input.run, recording)
-          : views_along(read_poses(options.trajectory, input.dataset), recording, intrinsics);
+  const Trajectory trajectory = options.trajectory.empty()
+                                    ? of_tracked_camera(input.run->trajectory, recording)
+                                    : read_poses(options.trajectory, input.dataset);
+  std::vector<FusionView> views = options.trajectory.empty()
+                                      ? views_of_run(*input.run, recording)
+                                      : views_along(trajectory, recording, intrinsics);
+  if (!rendered) look_when_depth_was_taken(views, trajectory, recording);
   for (std::size_t i = 0; i < views.size(); i += static_cast<std::size_t>(options.stride)) {
     input.views.push_back({views[i].index, {intrinsics, views[i].camera.world_to_camera}});
   }

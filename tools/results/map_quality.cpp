@@ -20,9 +20,9 @@ struct FrameScores {
   double psnr = 0;
   double psnr_same_exposure = 0;
   double ssim = 0;
-  std::optional<double> depth_l1;
-  std::optional<double> lpips;
-  SpaceCounts space;
+  std::optional<double> depth_l1 = {};
+  std::optional<double> lpips = {};
+  SpaceCounts space = {};
 };
 
 /// What a screen would show: displays clamp.
@@ -39,18 +39,30 @@ cv::Mat at_exposure_of(const Frame& frame, const RenderImages& images, const cv:
   return result;
 }
 
+/// Scores of the depth, as the map shows it from where the camera was when the depth image was taken.
+void score_depth(const QualityInput& input, const Camera& camera, const Frame& frame, RenderImages images,
+                 FrameScores& scores) {
+  if (frame.depth_after != 0) {
+    const auto pose = input.track.at(frame.timestamp + frame.depth_after);
+    if (pose) images = input.render({camera.intrinsics, pose->inverse()});
+  }
+  const cv::Mat depth(images.height, images.width, CV_32FC1, images.depth_normalised.data());
+  const cv::Mat opacity(images.height, images.width, CV_32FC1, images.opacity.data());
+  scores.depth_l1 = depth_l1(depth, frame.depth);
+  scores.space = count_space(opacity, depth, frame.depth, input.noise);
+}
+
 FrameScores score(const QualityInput& input, const Camera& camera, const Frame& frame) {
   RenderImages images = input.render(camera);
   const cv::Mat colour(images.height, images.width, CV_32FC3, images.colour.data());
   const cv::Mat rendered = clamped(colour);
-  const cv::Mat depth(images.height, images.width, CV_32FC1, images.depth_normalised.data());
-  const cv::Mat opacity(images.height, images.width, CV_32FC1, images.opacity.data());
   cv::Mat truth;
   frame.colour.convertTo(truth, CV_32FC3, 1.0 / 255);
-  FrameScores scores{psnr(rendered, truth), psnr(clamped(at_exposure_of(frame, images, colour)), truth),
-                     ssim(rendered, truth), depth_l1(depth, frame.depth),
-                     std::nullopt,          count_space(opacity, depth, frame.depth, input.noise)};
+  FrameScores scores{.psnr = psnr(rendered, truth),
+                     .psnr_same_exposure = psnr(clamped(at_exposure_of(frame, images, colour)), truth),
+                     .ssim = ssim(rendered, truth)};
   if (input.lpips) scores.lpips = input.lpips->distance(rendered, truth);
+  score_depth(input, camera, frame, std::move(images), scores);
   return scores;
 }
 

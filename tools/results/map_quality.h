@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "engine/eval/lpips.h"
+#include "engine/eval/pose_track.h"
 #include "engine/eval/space_metrics.h"
 #include "engine/sources/recording.h"
 #include "engine/types/render_images.h"
@@ -42,6 +43,9 @@ struct QualityInput {
   /// The frame of an index again, at the size of the views; nullopt where it cannot be read.
   std::function<std::optional<Frame>(int index)> frame;
   std::vector<QualityView> views;
+  /// Where the views' camera was, in the world of the views: a depth image that was taken at another time than its colour
+  /// image is compared with the map as it is seen from there.
+  PoseTrack track = {};
   DepthNoise noise;                                     ///< of the sensor
   std::function<RenderImages(const Camera&)> render;    ///< of the map
   Lpips* lpips = nullptr;                               ///< none: not measured

@@ -63,9 +63,11 @@ std::vector<std::size_t> compared_frames(const RunRecord& record, const FrameSou
 /// Compares the final map with compared_frames().
 std::optional<MapQuality> measure_images(const RunRecord& record, const Slam& slam, const FrameSource& source,
                                          const KeptKeyframes& kept) {
-  QualityInput input{.frame = {}, .views = {}, .noise = record.noise, .render = [&](const Camera& camera) {
-                       return slam.render(camera);
-                     }};
+  QualityInput input{.frame = {},
+                     .views = {},
+                     .track = PoseTrack(record.trajectory),
+                     .noise = record.noise,
+                     .render = [&](const Camera& camera) { return slam.render(camera); }};
   if (source.recording()) {
     input.frame = frames_of(*source.recording(), record.selection.scale);
   } else {

@@ -1,0 +1,61 @@
+#include "engine/slam/depth_timing.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace surefield {
+
+namespace {
+
+constexpr float kOneSurface = 0.02f;  // of the depth, by which neighbours on one surface differ at most
+constexpr int kRoundsOfLookup = 2;
+
+/// The inverse depth at a place of the image: between four pixels where they show one surface, else that of the nearest
+/// one; 0 where there is none.
+float depth_at(const cv::Mat& depth, double u, double v) {
+  const int x = static_cast<int>(std::floor(u)), y = static_cast<int>(std::floor(v));
+  const int nearest_x = static_cast<int>(std::lround(u)), nearest_y = static_cast<int>(std::lround(v));
+  if (nearest_x < 0 || nearest_y < 0 || nearest_x >= depth.cols || nearest_y >= depth.rows) return 0;
+  const float nearest = depth.at<float>(nearest_y, nearest_x);
+  if (!(nearest > 0) || x < 0 || y < 0 || x + 1 >= depth.cols || y + 1 >= depth.rows) return nearest;
+  const float* upper = depth.ptr<float>(y) + x;
+  const float* lower = depth.ptr<float>(y + 1) + x;
+  for (const float z : {upper[0], upper[1], lower[0], lower[1]})
+    if (!(std::abs(z - nearest) < kOneSurface * nearest)) return nearest;
+  const auto right = static_cast<float>(u - x), down = static_cast<float>(v - y);
+  // Inverse depth is linear in the image on a plane.
+  return 1 / ((1 - down) * ((1 - right) / upper[0] + right / upper[1]) +
+              down * ((1 - right) / lower[0] + right / lower[1]));
+}
+
+}  // namespace
+
+Pose part_of_motion(const Pose& motion, double share) {
+  const Eigen::AngleAxisd turn(motion.rotation());
+  Pose part = Pose::Identity();
+  part.linear() = Eigen::AngleAxisd(share * turn.angle(), turn.axis()).toRotationMatrix();
+  part.translation() = share * motion.translation();
+  return part;
+}
+
+cv::Mat move_depth(const cv::Mat& depth, const Intrinsics& k, const Pose& motion) {
+  cv::Mat moved = cv::Mat::zeros(depth.size(), CV_32FC1);
+  const Pose back = motion.inverse();
+  for (int v = 0; v < depth.rows; ++v)
+    for (int u = 0; u < depth.cols; ++u) {
+      const Eigen::Vector3d ray((u - k.cx) / k.fx, (v - k.cy) / k.fy, 1);
+      double z = depth.at<float>(v, u);
+      if (!(z > 0)) continue;
+      for (int round = 0; round < kRoundsOfLookup && z > 0; ++round) {
+        const Eigen::Vector3d there = back * (z * ray);
+        const double x = k.fx * there.x() / there.z() + k.cx, y = k.fy * there.y() / there.z() + k.cy;
+        const double found = depth_at(depth, x, y);
+        z = found > 0 ? (motion * Eigen::Vector3d(found * (x - k.cx) / k.fx, found * (y - k.cy) / k.fy, found)).z()
+                      : 0;
+      }
+      moved.at<float>(v, u) = static_cast<float>(std::max(z, 0.0));
+    }
+  return moved;
+}
+
+}  // namespace surefield
