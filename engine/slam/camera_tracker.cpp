@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <numbers>
 
-#include "engine/slam/depth_timing.h"
-
 namespace surefield {
 
 namespace {
@@ -39,14 +37,13 @@ Pose CameraTracker::predict() const {
   return last * history_.world_to_camera(n - 2).inverse() * last;
 }
 
-std::optional<Pose> CameraTracker::motion_of_depth(const Frame& frame) const {
+std::optional<CameraMotion> CameraTracker::last_motion() const {
   const std::size_t n = history_.size();
-  if (frame.depth_after == 0 || n < 2) return std::nullopt;
-  const FrameReport &last = history_.report(n - 1), &before = history_.report(n - 2);
-  const double between = last.timestamp - before.timestamp;
-  if (last.lost() || before.lost() || !(between > 0)) return std::nullopt;
-  const Pose motion = history_.world_to_camera(n - 1) * history_.world_to_camera(n - 2).inverse();
-  return part_of_motion(motion, -frame.depth_after / between);
+  if (n == 1) return expected_;
+  if (n < 2 || history_.report(n - 1).lost() || history_.report(n - 2).lost()) return std::nullopt;
+  const double seconds = history_.report(n - 1).timestamp - history_.report(n - 2).timestamp;
+  if (!(seconds > 0)) return std::nullopt;
+  return CameraMotion{history_.world_to_camera(n - 1) * history_.world_to_camera(n - 2).inverse(), seconds};
 }
 
 void CameraTracker::track(FrameHandle image, FrameFeatures& features, const Pose& start,

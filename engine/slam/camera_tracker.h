@@ -2,6 +2,7 @@
 
 #include <deque>
 
+#include "engine/slam/depth_timing.h"
 #include "engine/slam/frame_features.h"
 #include "engine/slam/frame_history.h"
 #include "engine/slam/keyframe_graph.h"
@@ -31,9 +32,10 @@ class CameraTracker {
 
   /// Where the next frame is thought to be, world to camera. Needs a frame before it.
   Pose predict() const;
-  /// From the camera at the time of the frame's depth image to that at the time of its colour image, if both stamps are
-  /// known to differ, by the last motion.
-  std::optional<Pose> motion_of_depth(const Frame& frame) const;
+  /// The motion to the last frame; none where one of the two is lost, or there is no time between them.
+  std::optional<CameraMotion> last_motion() const;
+  /// Says what last_motion() is as long as there is only one frame.
+  void expect(const CameraMotion& motion) { expected_ = motion; }
   /// Tracks a frame from `start`, and where that fails from other poses, one of them told by its features;
   /// fills the report's pose and what it says of tracking. The pose of a lost frame is `start`. Changes
   /// nothing else.
@@ -62,6 +64,7 @@ class CameraTracker {
   const KeyframeGraph& keyframes_;
   const FrameHistory& history_;
   std::deque<TrackingFit> recent_;   ///< of the last good frames
+  std::optional<CameraMotion> expected_;
   double valid_after_keyframe_ = 0;  ///< valid_fraction of the first frame tracked after it; 0: none yet
 };
 

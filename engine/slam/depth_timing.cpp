@@ -2,6 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <vector>
+
+#include "engine/types/median.h"
 
 namespace surefield {
 
@@ -30,11 +34,12 @@ float depth_at(const cv::Mat& depth, double u, double v) {
 
 }  // namespace
 
-Pose part_of_motion(const Pose& motion, double share) {
-  const Eigen::AngleAxisd turn(motion.rotation());
+Pose depth_to_colour(double depth_after, const CameraMotion& motion) {
+  const double share = -depth_after / motion.seconds;
+  const Eigen::AngleAxisd turn(motion.motion.rotation());
   Pose part = Pose::Identity();
   part.linear() = Eigen::AngleAxisd(share * turn.angle(), turn.axis()).toRotationMatrix();
-  part.translation() = share * motion.translation();
+  part.translation() = share * motion.motion.translation();
   return part;
 }
 
@@ -56,6 +61,22 @@ cv::Mat move_depth(const cv::Mat& depth, const Intrinsics& k, const Pose& motion
       moved.at<float>(v, u) = static_cast<float>(std::max(z, 0.0));
     }
   return moved;
+}
+
+double largest_shift(const cv::Mat& depth, const Intrinsics& k, const Pose& motion) {
+  std::vector<float> depths;
+  for (int v = 0; v < depth.rows; ++v)
+    std::copy_if(depth.ptr<float>(v), depth.ptr<float>(v) + depth.cols, std::back_inserter(depths),
+                 [](float z) { return z > 0; });
+  if (depths.empty()) return 0;
+  const double z = median(std::move(depths));
+  double largest = 0;
+  for (const double u : {0.0, k.width - 1.0})
+    for (const double v : {0.0, k.height - 1.0}) {
+      const Eigen::Vector3d p = motion * Eigen::Vector3d(z * (u - k.cx) / k.fx, z * (v - k.cy) / k.fy, z);
+      largest = std::max(largest, std::hypot(k.fx * p.x() / p.z() + k.cx - u, k.fy * p.y() / p.z() + k.cy - v));
+    }
+  return largest;
 }
 
 }  // namespace surefield

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "engine/slam/covisibility.h"
@@ -31,6 +32,8 @@ class KeyframeGraph {
   Eigen::VectorXf describe(const Frame& frame) { return covisibility_.describe(frame); }
   /// Adds a keyframe, with its descriptor.
   void add(Keyframe keyframe, Eigen::VectorXf descriptor);
+  /// Puts another in the place of the first and only one, with the same descriptor.
+  void replace_first(Keyframe keyframe) { keyframes_.front() = std::move(keyframe); }
   void set_gains(int k, const Eigen::Vector3f& gains) { keyframes_[k].gains = gains; }
 
   /// A keyframe's grid has no depth any more in the cells that are flagged.

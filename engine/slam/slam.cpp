@@ -20,12 +20,18 @@ FrameReport Slam::feed(const Frame& taken, const Tracked& tracked) {
   Turn turn(s);
   s.check_usable();
   s.check_images(taken);
-  const Frame frame = s.within_reach(taken);
+  Frame frame = s.within_reach(taken);
   const bool first = s.history.empty();
   ColourGrid grid = s.look(frame);
   FrameReport found{.index = frame.index, .timestamp = frame.timestamp};
   Sighting sighting =
       first ? s.sight_first(frame, std::move(grid), found) : s.sight(frame, std::move(grid), found);
+  if (s.shows_depth_moved(found)) {
+    s.change_map(false, [&] { s.begin_again(found); });
+    frame = s.within_reach(taken);
+    found = {.index = frame.index, .timestamp = frame.timestamp};
+    sighting = s.sight(frame, make_colour_grid(frame), found);
+  }
   s.history.add(found);
   turn.tell_tracked(tracked);
 

@@ -15,6 +15,7 @@ namespace surefield {
 
 namespace {
 
+constexpr double kNoticed = 0.5;          // pixels by which depth and colour of the first frame may be apart
 constexpr std::size_t kKeyframeRest = 3;  // frames between keyframes that are due to little overlap
 
 FrameView view_of(const Frame& frame, const SlamSettings& settings) {
@@ -23,6 +24,14 @@ FrameView view_of(const Frame& frame, const SlamSettings& settings) {
           .colour = frame.colour.ptr<uint8_t>(),
           .depth = frame.depth.ptr<float>(),
           .noise = noise_of(settings.sensor)};
+}
+
+/// With images of its own.
+Frame copy_of(const Frame& frame) {
+  Frame copy = frame;
+  copy.colour = frame.colour.clone();
+  copy.depth = frame.depth.clone();
+  return copy;
 }
 
 }  // namespace
@@ -71,8 +80,9 @@ Frame Slam::Implementation::within_reach(const Frame& frame) const {
         "depth_unit, the metres for one step of the depth images, right, and is depth_max what you want?",
         settings.depth_max, nearest, farthest));
   }
-  if (const auto motion = tracker.motion_of_depth(frame))
-    reached.depth = move_depth(reached.depth, intrinsics, *motion);
+  const auto motion = tracker.last_motion();
+  if (frame.depth_after != 0 && motion)
+    reached.depth = move_depth(reached.depth, intrinsics, depth_to_colour(frame.depth_after, *motion));
   return reached;
 }
 
@@ -150,6 +160,12 @@ bool Slam::Implementation::wants_keyframe(const FrameReport& report) const {
 
 void Slam::Implementation::begin_map(const Frame& frame, Sighting sighting) {
   add_keyframe(frame, std::move(sighting));
+  map_first(frame);
+  // Copies of the images: the caller may reuse its own.
+  if (frame.depth_after != 0) first_frame = copy_of(frame);
+}
+
+void Slam::Implementation::map_first(const Frame& frame) {
   FrameReport& report = history.last_report();
   upkeep.begin(frame);
   const int half = settings.first_iterations / 2;
@@ -159,16 +175,42 @@ void Slam::Implementation::begin_map(const Frame& frame, Sighting sighting) {
   keyframes.set_window({0}, settings.tracking.gauss_newton.references);
 }
 
+bool Slam::Implementation::shows_depth_moved(const FrameReport& second) const {
+  if (!first_frame || second.state != TrackingState::Good) return false;
+  const CameraMotion motion = motion_from_first(second);
+  return motion.seconds > 0 && largest_shift(first_frame->depth, intrinsics,
+                                             depth_to_colour(first_frame->depth_after, motion)) > kNoticed;
+}
+
+CameraMotion Slam::Implementation::motion_from_first(const FrameReport& second) const {
+  return {second.world_to_camera * history.world_to_camera(0).inverse(),
+          second.timestamp - history.report(0).timestamp};
+}
+
+void Slam::Implementation::begin_again(const FrameReport& second) {
+  Frame first = *std::exchange(first_frame, std::nullopt);
+  const CameraMotion motion = motion_from_first(second);
+  tracker.expect(motion);
+  first.depth = move_depth(first.depth, intrinsics, depth_to_colour(first.depth_after, motion));
+  FrameReport report = history.last_report();
+  Sighting sighting = sight_first(first, make_colour_grid(first), report);
+  Keyframe keyframe = make_keyframe(first, sighting.image.keep(), keyframes[0].camera, std::move(sighting.points));
+  keyframe.grid = std::move(sighting.grid);
+  keyframe.features = std::move(sighting.features);
+  engine.release(keyframes[0].frame);
+  keyframes.replace_first(std::move(keyframe));
+  map_first(first);
+}
+
 void Slam::Implementation::extend_map(const Frame& frame, Sighting sighting) {
   const FrameReport& report = history.last_report();
   tracker.accept(report);
+  first_frame.reset();
   pending.reset();
   if (report.keyframe) {
     map_keyframe(frame, std::move(sighting));
   } else {
-    // Copies of the images: the caller may reuse its own.
-    pending.emplace(PendingFrame{{frame.index, frame.timestamp, frame.colour.clone(), frame.depth.clone(), frame.depth_after},
-                                 std::move(sighting)});
+    pending.emplace(PendingFrame{copy_of(frame), std::move(sighting)});
   }
 }
 

@@ -47,6 +47,7 @@ struct Slam::Implementation {
   MapUpkeep upkeep;
   FirstLight first_light;
   Eigen::Vector3f map_gains = Eigen::Vector3f::Ones();  ///< times these the map's colours are shown
+  std::optional<Frame> first_frame;  ///< until it is known how the camera moved between its depth and its colour
   std::optional<PendingFrame> pending;
   bool finished = false;
   std::optional<std::string> broken;  ///< by what mapping ended in the middle
@@ -101,6 +102,12 @@ struct Slam::Implementation {
     note_moves(told);
   }
   void begin_map(const Frame& frame, Sighting sighting);
+  void map_first(const Frame& frame);
+  /// Whether the second frame shows that the camera moved noticeably between the first one's depth and colour image.
+  bool shows_depth_moved(const FrameReport& second) const;
+  CameraMotion motion_from_first(const FrameReport& second) const;
+  /// Begins the map again, with the first frame's depth where the camera was when its colour was taken.
+  void begin_again(const FrameReport& second);
   void extend_map(const Frame& frame, Sighting sighting);
   void map_keyframe(const Frame& frame, Sighting sighting);
   Frame add_keyframe(const Frame& frame, Sighting sighting);

@@ -32,12 +32,20 @@ bool is_inner(const cv::Mat& depth, int u, int v) {
 
 }  // namespace
 
-TEST_CASE("a part of a motion is done so many times to make the whole") {
-  const Pose motion = small_motion(), third = part_of_motion(motion, 1.0 / 3);
-  CHECK(part_of_motion(motion, 1).isApprox(motion, 1e-12));
-  CHECK(part_of_motion(motion, 0).isApprox(Pose::Identity(), 1e-12));
-  CHECK((third * third * third).isApprox(motion, 1e-3));
-  CHECK((part_of_motion(motion, -1) * motion).isApprox(Pose::Identity(), 1e-3));
+TEST_CASE("depth that was taken before colour moves on with the camera, later one back") {
+  const CameraMotion motion{small_motion(), 0.03};
+  CHECK(depth_to_colour(-0.03, motion).isApprox(small_motion(), 1e-12));
+  CHECK(depth_to_colour(0, motion).isApprox(Pose::Identity(), 1e-12));
+  const Pose third = depth_to_colour(-0.01, motion);
+  CHECK((third * third * third).isApprox(small_motion(), 1e-3));
+  CHECK((depth_to_colour(0.03, motion) * small_motion()).isApprox(Pose::Identity(), 1e-3));
+}
+
+TEST_CASE("the shift of an image is that of its corners, at the median depth") {
+  const cv::Mat depth(49, 65, CV_32FC1, cv::Scalar(2));
+  CHECK(largest_shift(depth, kIntrinsics, Pose::Identity()) == doctest::Approx(0));
+  CHECK(largest_shift(depth, kIntrinsics, Pose(Eigen::Translation3d(0.02, 0, 0))) == doctest::Approx(0.6));
+  CHECK(largest_shift(cv::Mat::zeros(49, 65, CV_32FC1), kIntrinsics, small_motion()) == 0);
 }
 
 TEST_CASE("the depth of a slanted plane, moved, is what the camera sees from there") {
