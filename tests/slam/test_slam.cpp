@@ -69,6 +69,19 @@ TEST_CASE("depth that was taken before or after colour is used for where the cam
   CHECK(error(true) < 0.7 * error(false));
 }
 
+TEST_CASE("somebody who walks through the picture does not drag the camera along") {
+  const auto error = [](bool somebody) {
+    const SyntheticRecording recording(device_options(),
+                                       {.width = 96, .height = 72, .frames = 400, .moving_object = somebody});
+    Slam slam(quick_settings(), recording.intrinsics(), engine_options());
+    for (int i = 300; i < 350; i += 2) slam.feed(*recording.load(i).frame);
+    return evaluate_trajectory(slam.trajectory(), recording.ground_truth()).ate.rmse;
+  };
+  const double alone = error(false), together = error(true);
+  CHECK(together != alone);  // there is somebody
+  CHECK(together < 1.5 * alone + 5e-4);
+}
+
 TEST_CASE("settings that are changed count from the next frame on") {
   const SyntheticRecording recording = office(5);
   FrameStream stream(recording, {});

@@ -13,26 +13,31 @@
 using namespace surefield;
 using testing::on_device;
 
-TEST_CASE("half an image is the mean of four pixels, and of the depths on the nearest surface") {
+TEST_CASE(
+    "half an image is the mean of four pixels, and of the depths on the nearest surface; hidden ones hide it") {
   gpu::Device& device = testing::device();
   const gpu::Pass<passes::align_halve> pass(device, 64);
-  // 5 x 3 pixels: the last column and row have no partner.
-  std::vector<glsl::vec2> source(15, {0.5f, 9.0f});
-  source[0] = {0.1f, 2.0f}, source[1] = {0.2f, 2.05f}, source[5] = {0.3f, 0.0f}, source[6] = {0.4f, 3.0f};
-  source[2] = {1, 0}, source[3] = {1, 0}, source[7] = {1, 0}, source[8] = {0, 0};
+  // 9 x 3 pixels: the last column and row have no partner.
+  std::vector<glsl::vec2> source(27, {0.5f, 9.0f});
+  source[0] = {0.1f, 2.0f}, source[1] = {0.2f, 2.05f}, source[9] = {0.3f, 0.0f}, source[10] = {0.4f, 3.0f};
+  source[2] = {1, 0}, source[3] = {1, 0}, source[11] = {1, 0}, source[12] = {0, 0};
+  source[4] = {1, -1}, source[5] = {1, 0}, source[13] = {1, 0}, source[14] = {1, -1};
+  source[6] = {1, -1}, source[7] = {1, 4}, source[15] = {1, 0}, source[16] = {1, -1};
   const auto large = on_device("source", source);
-  const gpu::Array<glsl::vec2> small(device, "image", 2);
+  const gpu::Array<glsl::vec2> small(device, "image", 4);
   gpu::Recorder recorder(device);
-  recorder.dispatch(pass, 1, {.source = large, .image = small}, {.width = 2, .height = 1, .source_width = 5});
+  recorder.dispatch(pass, 1, {.source = large, .image = small}, {.width = 4, .height = 1, .source_width = 9});
   recorder.submit();
-  const auto got = small.download(2);
+  const auto got = small.download(4);
   CHECK(got[0].x == doctest::Approx(0.25));
   CHECK(got[0].y == doctest::Approx(2.025));
   CHECK(got[1].x == doctest::Approx(0.75));
   CHECK(got[1].y == 0);
+  CHECK(got[2].y == -1);
+  CHECK(got[3].y == 4);
 }
 
-TEST_CASE("normals of a plane are the plane's at every level; none at the border and across edges") {
+TEST_CASE("normals of a plane are the plane's at every level; none at the border and across edges, and nothing where it is hidden") {
   gpu::Device& device = testing::device();
   const gpu::Pass<passes::align_points> pass(device, 64);
   const Intrinsics full{.width = 64, .height = 48, .fx = 60, .fy = 55, .cx = 30, .cy = 25};
@@ -47,6 +52,8 @@ TEST_CASE("normals of a plane are the plane's at every level; none at the border
     }
     const int hole = 5 * k.width + 4;
     image[hole].y = 0;
+    const int hidden = 7 * k.width + 9;
+    image[hidden].y = -1;
     const auto rendered = on_device("image", image);
     const auto camera = on_device("camera", std::vector{to_device(Camera{full})});
     const gpu::Array<glsl::AlignPoint> points(device, "points", image.size());
@@ -62,8 +69,8 @@ TEST_CASE("normals of a plane are the plane's at every level; none at the border
     for (int i = 0; i < k.width * k.height; ++i) {
       const int u = i % k.width, v = i / k.width;
       const bool border = u == 0 || v == 0 || u == k.width - 1 || v == k.height - 1;
-      const bool near_hole = std::abs(u - 4) + std::abs(v - 5) <= 1;
-      CHECK(got[i].depth == (image[i].y > 0 ? image[i].y : -1.5f));
+      const bool near_hole = std::abs(u - 4) + std::abs(v - 5) <= 1 || std::abs(u - 9) + std::abs(v - 7) <= 1;
+      CHECK(got[i].depth == (i == hidden ? 0 : image[i].y > 0 ? image[i].y : -1.5f));
       const glsl::vec3& n = got[i].normal;
       const double want = border || near_hole ? 0 : 1;
       CHECK(Eigen::Vector3d(n.x, n.y, n.z).dot(normal) == doctest::Approx(want).epsilon(1e-4));

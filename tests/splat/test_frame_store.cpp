@@ -91,3 +91,26 @@ TEST_CASE("the frames asked for last stay on the device, and the place of a rele
   check_holds(store, successor, 20);
   check_holds(store, frames[11], 11);
 }
+
+TEST_CASE("hidden pixels show nothing, on the device and after they had to leave it; others are as they were") {
+  FrameStore store(testing::device());
+  const FrameHandle frame = store.load(Images(3).view());
+  std::vector<float> want = store.on_device(frame).depth.download(kWidth * kHeight);
+  const uint32_t valid = store.on_device(frame).valid_pixels;
+  std::vector<uint8_t> flags(kWidth * kHeight);
+  for (int i : {0, 3, 17}) flags[i] = 1, want[i] = -1;  // 3 had no depth
+  store.hide(frame, flags);
+  store.hide(frame, flags);
+  const auto check = [&] {
+    CHECK(store.on_device(frame).depth.download(kWidth * kHeight) == want);
+    CHECK(store.on_device(frame).valid_pixels == valid - 2);
+  };
+  check();
+  for (int seed = 4; seed < 20; ++seed) store.load(Images(seed).view());
+  check();
+  flags[1] = 1, want[1] = -1;
+  store.hide(frame, flags);
+  CHECK(store.on_device(frame).valid_pixels == valid - 3);
+  CHECK_THROWS_AS(store.hide(frame, std::vector<uint8_t>(4)), UsageError);
+  CHECK_THROWS_AS(store.hide(999, flags), UsageError);
+}
