@@ -113,6 +113,28 @@ TEST_CASE("the mapping loss and its gradient agree with the oracle") {
     }
 }
 
+TEST_CASE("hidden pixels have no part in the mapping loss, nor thin what is there") {
+  gpu::Device& device = testing::device();
+  Rasteriser rasteriser(device);
+  Mapper mapper(device);
+  GaussianMap map(device);
+  const auto scene = reference::random_scene(7, 200, {.width = 48, .height = 36});
+  map.assign(scene.cloud);
+  const Observed o = observe(scene, rasteriser, map);
+  SensorFrame frame(device, view_of(o));
+  frame.depth.upload(std::vector<float>(frame.size.pixels(), -1.0f));
+  CameraVariable camera(device, scene.camera);
+  gpu::Recorder recorder(device);
+  mapper.record_loss(recorder, rasteriser, map, frame, camera, {.weight_align = 0});
+  recorder.submit();
+  for (const glsl::PixelUpstream& p : rasteriser.pixel_upstream.download(frame.size.pixels())) {
+    CHECK(p.constant == 0);
+    CHECK(p.total == 0);
+    CHECK(p.colour.x == 0);
+    CHECK(p.uncertainty == 0);
+  }
+}
+
 TEST_CASE("the tracking loss, its masks and its gradient agree with the oracle") {
   gpu::Device& device = testing::device();
   Rasteriser rasteriser(device);
