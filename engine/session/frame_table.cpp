@@ -57,6 +57,7 @@ nlohmann::ordered_json frame_json(const FrameReport& frame) {
           {"valid_fraction", frame.valid_fraction},
           {"explained", rounded(frame.explained)},
           {"seen_through", rounded(frame.seen_through)},
+          {"moved", rounded(frame.moved)},
           {"sigma_cm", rounded(100 * position_sigma(frame.covariance))},
           {"sigma_deg", rounded(degrees(rotation_sigma(frame.covariance)))},
           {"covariance", covariance_text(frame.covariance)},

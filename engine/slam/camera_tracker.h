@@ -63,7 +63,7 @@ class CameraTracker {
   const Intrinsics intrinsics_;
   const KeyframeGraph& keyframes_;
   const FrameHistory& history_;
-  std::deque<TrackingFit> recent_;   ///< of the last good frames
+  std::deque<TrackingFit> recent_;  ///< of the last good frames
   std::optional<CameraMotion> expected_;
   double valid_after_keyframe_ = 0;  ///< valid_fraction of the first frame tracked after it; 0: none yet
 };

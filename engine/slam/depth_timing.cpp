@@ -14,8 +14,8 @@ namespace {
 constexpr float kOneSurface = 0.02f;  // of the depth, by which neighbours on one surface differ at most
 constexpr int kRoundsOfLookup = 2;
 
-/// The inverse depth at a place of the image: between four pixels where they show one surface, else that of the nearest
-/// one; 0 where there is none.
+/// The inverse depth at a place of the image: between four pixels where they show one surface, else that of
+/// the nearest one; 0 where there is none.
 float depth_at(const cv::Mat& depth, double u, double v) {
   const int x = static_cast<int>(std::floor(u)), y = static_cast<int>(std::floor(v));
   const int nearest_x = static_cast<int>(std::lround(u)), nearest_y = static_cast<int>(std::lround(v));
@@ -55,8 +55,9 @@ cv::Mat move_depth(const cv::Mat& depth, const Intrinsics& k, const Pose& motion
         const Eigen::Vector3d there = back * (z * ray);
         const double x = k.fx * there.x() / there.z() + k.cx, y = k.fy * there.y() / there.z() + k.cy;
         const double found = depth_at(depth, x, y);
-        z = found > 0 ? (motion * Eigen::Vector3d(found * (x - k.cx) / k.fx, found * (y - k.cy) / k.fy, found)).z()
-                      : 0;
+        z = found > 0
+                ? (motion * Eigen::Vector3d(found * (x - k.cx) / k.fx, found * (y - k.cy) / k.fy, found)).z()
+                : 0;
       }
       moved.at<float>(v, u) = static_cast<float>(std::max(z, 0.0));
     }
@@ -74,7 +75,8 @@ double largest_shift(const cv::Mat& depth, const Intrinsics& k, const Pose& moti
   for (const double u : {0.0, k.width - 1.0})
     for (const double v : {0.0, k.height - 1.0}) {
       const Eigen::Vector3d p = motion * Eigen::Vector3d(z * (u - k.cx) / k.fx, z * (v - k.cy) / k.fy, z);
-      largest = std::max(largest, std::hypot(k.fx * p.x() / p.z() + k.cx - u, k.fy * p.y() / p.z() + k.cy - v));
+      largest =
+          std::max(largest, std::hypot(k.fx * p.x() / p.z() + k.cx - u, k.fy * p.y() / p.z() + k.cy - v));
     }
   return largest;
 }

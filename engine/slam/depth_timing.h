@@ -12,8 +12,8 @@ struct CameraMotion {
   double seconds = 0;              ///< that time, positive
 };
 
-/// From the camera when a depth image was taken to when its colour image was, so many seconds before (Frame::depth_after):
-/// rotation and translation each go on at a constant rate.
+/// From the camera when a depth image was taken to when its colour image was, so many seconds before
+/// (Frame::depth_after): rotation and translation each go on at a constant rate.
 Pose depth_to_colour(double depth_after, const CameraMotion& motion);
 
 /// The depth image as the camera would have taken it elsewhere: `motion` takes points of the camera that took
@@ -22,7 +22,8 @@ Pose depth_to_colour(double depth_after, const CameraMotion& motion);
 /// 0 where it shows none. CV_32FC1, metres.
 cv::Mat move_depth(const cv::Mat& depth, const Intrinsics& intrinsics, const Pose& motion);
 
-/// By how many pixels such a motion shifts what the image shows, at most, at the median of the depth; 0 where there is none.
+/// By how many pixels such a motion shifts what the image shows, at most, at the median of the depth; 0 where
+/// there is none.
 double largest_shift(const cv::Mat& depth, const Intrinsics& intrinsics, const Pose& motion);
 
 }  // namespace surefield

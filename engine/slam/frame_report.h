@@ -30,6 +30,7 @@ struct FrameReport {
   double valid_fraction = 0;  ///< pixels that took part in tracking, of those with sensor depth
   double explained = 0;       ///< pixels whose depth the map explains, of those with sensor depth
   double seen_through = 0;    ///< pixels where the sensor sees through the map, of those
+  double moved = 0;  ///< of all pixels, those that were taken out of a keyframe since something moves there
   /// Of the pose relative to the keyframes that it was aligned to, for a small motion of the camera in its
   /// own frame: translation (metres), then rotation (radians). Zeros where it is not known: for the first
   /// frame, and where tracking is by Adam.

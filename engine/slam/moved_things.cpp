@@ -10,10 +10,10 @@ namespace surefield {
 
 namespace {
 
-constexpr double kThrough = 0.1;     // metres that the other measured beyond, at least
-constexpr double kDeviations = 4;    // of the sensor, at least
-constexpr int kFewestNeighbours = 5; // flagged cells of the eight around one
-constexpr int kFewestCells = 6;      // of an image; fewer are none
+constexpr double kThrough = 0.1;      // metres that the other measured beyond, at least
+constexpr double kDeviations = 4;     // of the sensor, at least
+constexpr int kFewestNeighbours = 5;  // flagged cells of the eight around one
+constexpr int kFewestCells = 6;       // of an image; fewer are none
 
 /// The place of a cell's middle, pixels.
 Eigen::Vector2d middle_of(const ColourGrid& grid, int x, int y) {
@@ -27,7 +27,8 @@ double nearest_around(const ColourGrid& grid, double u, double v) {
   const double x = std::floor((u - half) / grid.cell), y = std::floor((v - half) / grid.cell);
   if (!(x >= 0 && y >= 0 && x + 1 < grid.width && y + 1 < grid.height)) return 0;
   const std::size_t at = static_cast<std::size_t>(y) * grid.width + static_cast<std::size_t>(x);
-  return std::min({grid.depth[at], grid.depth[at + 1], grid.depth[at + grid.width], grid.depth[at + grid.width + 1]});
+  return std::min(
+      {grid.depth[at], grid.depth[at + 1], grid.depth[at + grid.width], grid.depth[at + grid.width + 1]});
 }
 
 /// Whether the other keyframe looked through the point.
@@ -72,11 +73,13 @@ std::vector<uint8_t> moved_cells(const DepthView& keyframe, std::span<const Dept
       const double z = grid.depth[at];
       if (z == 0) continue;
       const Eigen::Vector2d pixel = middle_of(grid, x, y);
-      const Eigen::Vector3d world = to_world * Eigen::Vector3d(z * (pixel.x() - k.cx) / k.fx, z * (pixel.y() - k.cy) / k.fy, z);
+      const Eigen::Vector3d world =
+          to_world * Eigen::Vector3d(z * (pixel.x() - k.cx) / k.fx, z * (pixel.y() - k.cy) / k.fy, z);
       flags[at] = std::any_of(others.begin(), others.end(),
                               [&](const DepthView& other) { return looks_through(other, world, noise); });
     }
-  flags = by_neighbours(flags, grid, [](bool flag, int around) { return flag && around >= kFewestNeighbours; });
+  flags =
+      by_neighbours(flags, grid, [](bool flag, int around) { return flag && around >= kFewestNeighbours; });
   if (std::count(flags.begin(), flags.end(), 1) < kFewestCells) return {};
   // The cells that were left out at the border of what moves, and one more.
   for (int rim = 0; rim < 2; ++rim)
@@ -84,12 +87,14 @@ std::vector<uint8_t> moved_cells(const DepthView& keyframe, std::span<const Dept
   return flags;
 }
 
-std::vector<uint8_t> pixels_of_cells(const std::vector<uint8_t>& cells, const ColourGrid& grid, cv::Size size) {
+std::vector<uint8_t> pixels_of_cells(const std::vector<uint8_t>& cells, const ColourGrid& grid,
+                                     cv::Size size) {
   std::vector<uint8_t> pixels(static_cast<std::size_t>(size.area()));
   for (int v = 0; v < size.height; ++v)
     for (int u = 0; u < size.width; ++u) {
       const int x = std::min(u / grid.cell, grid.width - 1), y = std::min(v / grid.cell, grid.height - 1);
-      pixels[static_cast<std::size_t>(v) * size.width + u] = cells[static_cast<std::size_t>(y) * grid.width + x];
+      pixels[static_cast<std::size_t>(v) * size.width + u] =
+          cells[static_cast<std::size_t>(y) * grid.width + x];
     }
   return pixels;
 }

@@ -17,13 +17,14 @@ struct DepthView {
   Camera camera;
 };
 
-/// Flags of the cells of a keyframe in which something stands that others looked through, as far as they measured beyond
-/// it: it came later, or was gone, so it moves. What depth edges and thin things seem to show is left out, and a rim is
-/// added around the rest. Empty where nothing moves.
+/// Flags of the cells of a keyframe in which something stands that others looked through, as far as they
+/// measured beyond it: it came later, or was gone, so it moves. What depth edges and thin things seem to show
+/// is left out, and a rim is added around the rest. Empty where nothing moves.
 std::vector<uint8_t> moved_cells(const DepthView& keyframe, std::span<const DepthView> others,
                                  const DepthNoise& noise);
 
 /// The same for the pixels of an image of this size, row-major.
-std::vector<uint8_t> pixels_of_cells(const std::vector<uint8_t>& cells, const ColourGrid& grid, cv::Size size);
+std::vector<uint8_t> pixels_of_cells(const std::vector<uint8_t>& cells, const ColourGrid& grid,
+                                     cv::Size size);
 
 }  // namespace surefield

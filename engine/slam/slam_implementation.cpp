@@ -194,7 +194,8 @@ void Slam::Implementation::begin_again(const FrameReport& second) {
   first.depth = move_depth(first.depth, intrinsics, depth_to_colour(first.depth_after, motion));
   FrameReport report = history.last_report();
   Sighting sighting = sight_first(first, make_colour_grid(first), report);
-  Keyframe keyframe = make_keyframe(first, sighting.image.keep(), keyframes[0].camera, std::move(sighting.points));
+  Keyframe keyframe =
+      make_keyframe(first, sighting.image.keep(), keyframes[0].camera, std::move(sighting.points));
   keyframe.grid = std::move(sighting.grid);
   keyframe.features = std::move(sighting.features);
   engine.release(keyframes[0].frame);
@@ -263,19 +264,21 @@ void Slam::Implementation::hide_moved(Frame& mapped) {
   const std::vector<uint8_t> cells = moved_cells(own, others, noise);
   for (int k : keyframes.window()) hide(k, moved_cells(view_of_keyframe(k), std::span(&own, 1), noise));
   if (cells.empty()) return;
-  hide(newest, cells);
+  std::vector<uint8_t> pixels = hide(newest, cells);
   mapped.depth = mapped.depth.clone();
-  mapped.depth.setTo(0, cv::Mat(mapped.depth.size(), CV_8U,
-                                pixels_of_cells(cells, keyframes[newest].grid, mapped.depth.size()).data()));
+  mapped.depth.setTo(0, cv::Mat(mapped.depth.size(), CV_8U, pixels.data()));
+  history.last_report().moved = cv::mean(pixels)[0];
 }
 
-void Slam::Implementation::hide(int k, const std::vector<uint8_t>& cells) {
-  if (cells.empty()) return;
+/// Takes these cells out of a keyframe; returns the flags of their pixels.
+std::vector<uint8_t> Slam::Implementation::hide(int k, const std::vector<uint8_t>& cells) {
+  if (cells.empty()) return {};
   const Keyframe& keyframe = keyframes[k];
   const auto pixels = pixels_of_cells(cells, keyframe.grid, {intrinsics.width, intrinsics.height});
   engine.hide(keyframe.frame, pixels);
   if (keyframe.tracked != keyframe.frame) engine.hide(keyframe.tracked, pixels);
   keyframes.forget_depth(k, cells);
+  return pixels;
 }
 
 void Slam::Implementation::settle_exposure() {

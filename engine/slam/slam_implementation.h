@@ -47,7 +47,8 @@ struct Slam::Implementation {
   MapUpkeep upkeep;
   FirstLight first_light;
   Eigen::Vector3f map_gains = Eigen::Vector3f::Ones();  ///< times these the map's colours are shown
-  std::optional<Frame> first_frame;  ///< until it is known how the camera moved between its depth and its colour
+  std::optional<Frame>
+      first_frame;  ///< until it is known how the camera moved between its depth and its colour
   std::optional<PendingFrame> pending;
   bool finished = false;
   std::optional<std::string> broken;  ///< by what mapping ended in the middle
@@ -103,7 +104,8 @@ struct Slam::Implementation {
   }
   void begin_map(const Frame& frame, Sighting sighting);
   void map_first(const Frame& frame);
-  /// Whether the second frame shows that the camera moved noticeably between the first one's depth and colour image.
+  /// Whether the second frame shows that the camera moved noticeably between the first one's depth and colour
+  /// image.
   bool shows_depth_moved(const FrameReport& second) const;
   CameraMotion motion_from_first(const FrameReport& second) const;
   /// Begins the map again, with the first frame's depth where the camera was when its colour was taken.
@@ -111,10 +113,10 @@ struct Slam::Implementation {
   void extend_map(const Frame& frame, Sighting sighting);
   void map_keyframe(const Frame& frame, Sighting sighting);
   Frame add_keyframe(const Frame& frame, Sighting sighting);
-  /// Takes what moves out of the newest keyframe, whose images `mapped` are, and out of those that were last optimised
-  /// together, where the one looks through what the other shows.
+  /// Takes what moves out of the newest keyframe, whose images `mapped` are, and out of those that were last
+  /// optimised together, where the one looks through what the other shows.
   void hide_moved(Frame& mapped);
-  void hide(int k, const std::vector<uint8_t>& cells);
+  std::vector<uint8_t> hide(int k, const std::vector<uint8_t>& cells);
   void measure();
   /// Gives the map the exposure that most frames have.
   void settle_exposure();

@@ -26,8 +26,8 @@ class SplatEngine {
   /// in host memory, without loss, until they are asked for.
   FrameHandle load(const FrameView& frame);
   void release(FrameHandle frame);
-  /// From here on the frame shows nothing in the pixels that are flagged, row-major: mapping and alignment do not compare
-  /// them. Throws UsageError for a frame that is not held, or of another size.
+  /// From here on the frame shows nothing in the pixels that are flagged, row-major: mapping and alignment do
+  /// not compare them. Throws UsageError for a frame that is not held, or of another size.
   void hide(FrameHandle frame, std::span<const uint8_t> pixels);
 
   /// Replaces the map, adds Gaussians to it, reads it back. The depth of a Gaussian over its footprint comes

@@ -9,9 +9,10 @@ namespace surefield {
 struct SensorFrame {
   ImageSize size;
   gpu::Array<glsl::uint> colour;  ///< R, G, B, 255 from the lowest byte up
-  gpu::Array<float> depth;        ///< metres, 0 where invalid, negative where the pixel shows nothing to compare with
-  uint32_t valid_pixels = 0;      ///< pixels with depth
-  glsl::vec3 noise{};             ///< of the depth: constant, linear and quadratic part (DepthNoise)
+  gpu::Array<float>
+      depth;  ///< metres, 0 where invalid, negative where the pixel shows nothing to compare with
+  uint32_t valid_pixels = 0;  ///< pixels with depth
+  glsl::vec3 noise{};         ///< of the depth: constant, linear and quadratic part (DepthNoise)
 
   /// Without a frame yet.
   explicit SensorFrame(gpu::Device& device);

@@ -113,8 +113,8 @@ double isotropy_term(const Gaussians& gaussians, std::span<const uint8_t> visibl
 }
 
 /// Adds the derivatives by the opacity of pixels that are not `valid`; see mapping_loss().
-void thin_what_is_unlike(const Images& rendered, const Observation& observed, const std::vector<uint8_t>& valid,
-                         double weight, ImageGradients& gradients) {
+void thin_what_is_unlike(const Images& rendered, const Observation& observed,
+                         const std::vector<uint8_t>& valid, double weight, ImageGradients& gradients) {
   constexpr double kSimilar = 0.2;
   const double count = std::max<double>(1, static_cast<double>(std::count(valid.begin(), valid.end(), 1)));
   for (std::size_t i = 0; i < valid.size(); ++i) {

@@ -13,7 +13,8 @@ Pose small_motion() {
          Pose(Eigen::AngleAxisd(0.01, Eigen::Vector3d(1, 2, -1).normalized()));
 }
 
-/// What a camera sees of the plane n . X = d that is given in the frame of another, from which `to_camera` leads to it.
+/// What a camera sees of the plane n . X = d that is given in the frame of another, from which `to_camera`
+/// leads to it.
 cv::Mat see_plane(const Eigen::Vector3d& n, double d, const Pose& to_camera) {
   const Eigen::Vector3d own = to_camera.linear() * n;
   const double distance = d + own.dot(to_camera.translation());

@@ -32,9 +32,11 @@ struct View {
     for (int v = 0; v < kHeight; ++v)
       for (int u = 0; u < kWidth; ++u)
         for (const Board& b : boards) {
-          const double px = x + b.z * (u - kIntrinsics.cx) / kIntrinsics.fx, py = b.z * (v - kIntrinsics.cy) / kIntrinsics.fy;
+          const double px = x + b.z * (u - kIntrinsics.cx) / kIntrinsics.fx,
+                       py = b.z * (v - kIntrinsics.cy) / kIntrinsics.fy;
           auto& z = frame.depth.at<float>(v, u);
-          if (px > b.left && px < b.right && py > b.top && py < b.bottom) z = std::min(z, static_cast<float>(b.z));
+          if (px > b.left && px < b.right && py > b.top && py < b.bottom)
+            z = std::min(z, static_cast<float>(b.z));
         }
     grid = make_colour_grid(frame);
   }
@@ -48,7 +50,9 @@ std::vector<uint8_t> moved(const View& keyframe, const View& other) {
 
 }  // namespace
 
-TEST_CASE("what stands where another keyframe looked through has moved, whichever came first; what it hides has not") {
+TEST_CASE(
+    "what stands where another keyframe looked through has moved, whichever came first; what it hides has "
+    "not") {
   const View before(0), after(0.25, {kPerson});
   const std::vector<uint8_t> cells = moved(after, before);
   REQUIRE(cells.size() == after.grid.depth.size());
@@ -67,7 +71,9 @@ TEST_CASE("what stands where another keyframe looked through has moved, whicheve
   CHECK(moved(before, after).empty());
 }
 
-TEST_CASE("nothing has moved in a scene at rest, seen from two places, nor where the other is blind or did not look") {
+TEST_CASE(
+    "nothing has moved in a scene at rest, seen from two places, nor where the other is blind or did not "
+    "look") {
   const std::vector<Board> still{kPerson, {0.5, 1, -0.5, 1, 2}, {-1.4, -1.36, -1, 1, 1.2}};
   CHECK(moved(View(0, still), View(0.4, still)).empty());
   CHECK(moved(View(0.4, still), View(0, still)).empty());

@@ -14,7 +14,8 @@ using namespace surefield;
 using testing::on_device;
 
 TEST_CASE(
-    "half an image is the mean of four pixels, and of the depths on the nearest surface; hidden ones hide it") {
+    "half an image is the mean of four pixels, and of the depths on the nearest surface; hidden ones hide "
+    "it") {
   gpu::Device& device = testing::device();
   const gpu::Pass<passes::align_halve> pass(device, 64);
   // 9 x 3 pixels: the last column and row have no partner.
@@ -37,7 +38,9 @@ TEST_CASE(
   CHECK(got[3].y == 4);
 }
 
-TEST_CASE("normals of a plane are the plane's at every level; none at the border and across edges, and nothing where it is hidden") {
+TEST_CASE(
+    "normals of a plane are the plane's at every level; none at the border and across edges, and nothing "
+    "where it is hidden") {
   gpu::Device& device = testing::device();
   const gpu::Pass<passes::align_points> pass(device, 64);
   const Intrinsics full{.width = 64, .height = 48, .fx = 60, .fy = 55, .cx = 30, .cy = 25};

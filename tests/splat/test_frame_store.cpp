@@ -92,7 +92,8 @@ TEST_CASE("the frames asked for last stay on the device, and the place of a rele
   check_holds(store, frames[11], 11);
 }
 
-TEST_CASE("hidden pixels show nothing, on the device and after they had to leave it; others are as they were") {
+TEST_CASE(
+    "hidden pixels show nothing, on the device and after they had to leave it; others are as they were") {
   FrameStore store(testing::device());
   const FrameHandle frame = store.load(Images(3).view());
   std::vector<float> want = store.on_device(frame).depth.download(kWidth * kHeight);

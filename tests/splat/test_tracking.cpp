@@ -137,7 +137,8 @@ TEST_CASE("the engine aligns frames to the keyframes that it is given, also when
     CHECK(error(std::span(keyframes).first(2)) < alone / 2);
     CHECK(error(std::span(keyframes).subspan(1, 3)) < alone / 2);
     CHECK(error(keyframes) < alone / 2);
-    const std::vector<uint8_t> all(static_cast<std::size_t>(here.intrinsics.width) * here.intrinsics.height, 1);
+    const std::vector<uint8_t> all(static_cast<std::size_t>(here.intrinsics.width) * here.intrinsics.height,
+                                   1);
     for (const TrackingReference& keyframe : std::span(keyframes).first(2)) engine.hide(keyframe.frame, all);
     CHECK(error(std::span(keyframes).first(2)) == doctest::Approx(alone));
     TrackingReference other = keyframes[0];

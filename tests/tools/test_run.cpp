@@ -133,7 +133,7 @@ TEST_CASE("frames.csv says of each frame what metrics.json says") {
   std::getline(csv, line);
   CHECK(line ==
         "index,timestamp_s,keyframe,state,lost,gain_red,gain_green,gain_blue,retries,loss,valid_fraction,"
-        "explained,seen_through,sigma_cm,sigma_deg,covariance,tracking_"
+        "explained,seen_through,moved,sigma_cm,sigma_deg,covariance,tracking_"
         "iterations,tracking_ms,"
         "mapping_iterations,mapping_ms,gaussians,uncertain_gaussians,device_gaussians,"
         "device_mb");

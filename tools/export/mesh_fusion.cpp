@@ -152,9 +152,8 @@ Input open_input(const MeshOptions& options) {
   const Trajectory trajectory = options.trajectory.empty()
                                     ? of_tracked_camera(input.run->trajectory, recording)
                                     : read_poses(options.trajectory, input.dataset);
-  std::vector<FusionView> views = options.trajectory.empty()
-                                      ? views_of_run(*input.run, recording)
-                                      : views_along(trajectory, recording, intrinsics);
+  std::vector<FusionView> views = options.trajectory.empty() ? views_of_run(*input.run, recording)
+                                                             : views_along(trajectory, recording, intrinsics);
   if (!rendered) look_when_depth_was_taken(views, trajectory, recording);
   for (std::size_t i = 0; i < views.size(); i += static_cast<std::size_t>(options.stride)) {
     input.views.push_back({views[i].index, {intrinsics, views[i].camera.world_to_camera}});

@@ -43,8 +43,8 @@ struct QualityInput {
   /// The frame of an index again, at the size of the views; nullopt where it cannot be read.
   std::function<std::optional<Frame>(int index)> frame;
   std::vector<QualityView> views;
-  /// Where the views' camera was, in the world of the views: a depth image that was taken at another time than its colour
-  /// image is compared with the map as it is seen from there.
+  /// Where the views' camera was, in the world of the views: a depth image that was taken at another time
+  /// than its colour image is compared with the map as it is seen from there.
   PoseTrack track = {};
   DepthNoise noise;                                     ///< of the sensor
   std::function<RenderImages(const Camera&)> render;    ///< of the map
