@@ -14,9 +14,10 @@ namespace {
 constexpr float kOneSurface = 0.02f;  // of the depth, by which neighbours on one surface differ at most
 constexpr int kRoundsOfLookup = 2;
 
-/// The inverse depth at a place of the image: between four pixels where they show one surface, else that of
-/// the nearest one; 0 where there is none.
+/// The depth at a place of the image: between four pixels where they show one surface, else that of the
+/// nearest one; 0 where there is none.
 float depth_at(const cv::Mat& depth, double u, double v) {
+  if (!(u > -1 && v > -1 && u < depth.cols && v < depth.rows)) return 0;
   const int x = static_cast<int>(std::floor(u)), y = static_cast<int>(std::floor(v));
   const int nearest_x = static_cast<int>(std::lround(u)), nearest_y = static_cast<int>(std::lround(v));
   if (nearest_x < 0 || nearest_y < 0 || nearest_x >= depth.cols || nearest_y >= depth.rows) return 0;
@@ -32,6 +33,16 @@ float depth_at(const cv::Mat& depth, double u, double v) {
               down * ((1 - right) / lower[0] + right / lower[1]));
 }
 
+/// The depth, once moved, of what the image shows where it shows `point`; 0 where that is nothing.
+double depth_seen_at(const Eigen::Vector3d& point, const cv::Mat& depth, const Intrinsics& k,
+                     const Pose& motion) {
+  if (point.z() <= 0) return 0;
+  const double u = k.fx * point.x() / point.z() + k.cx, v = k.fy * point.y() / point.z() + k.cy;
+  const double z = depth_at(depth, u, v);
+  if (z == 0) return 0;
+  return (motion * Eigen::Vector3d(z * (u - k.cx) / k.fx, z * (v - k.cy) / k.fy, z)).z();
+}
+
 }  // namespace
 
 Pose depth_to_colour(double depth_after, const CameraMotion& motion) {
@@ -45,21 +56,13 @@ Pose depth_to_colour(double depth_after, const CameraMotion& motion) {
 
 cv::Mat move_depth(const cv::Mat& depth, const Intrinsics& k, const Pose& motion) {
   cv::Mat moved = cv::Mat::zeros(depth.size(), CV_32FC1);
-  const Pose back = motion.inverse();
   for (int v = 0; v < depth.rows; ++v)
     for (int u = 0; u < depth.cols; ++u) {
       const Eigen::Vector3d ray((u - k.cx) / k.fx, (v - k.cy) / k.fy, 1);
       double z = depth.at<float>(v, u);
-      if (!(z > 0)) continue;
-      for (int round = 0; round < kRoundsOfLookup && z > 0; ++round) {
-        const Eigen::Vector3d there = back * (z * ray);
-        const double x = k.fx * there.x() / there.z() + k.cx, y = k.fy * there.y() / there.z() + k.cy;
-        const double found = depth_at(depth, x, y);
-        z = found > 0
-                ? (motion * Eigen::Vector3d(found * (x - k.cx) / k.fx, found * (y - k.cy) / k.fy, found)).z()
-                : 0;
-      }
-      moved.at<float>(v, u) = static_cast<float>(std::max(z, 0.0));
+      for (int round = 0; round < kRoundsOfLookup && z > 0; ++round)
+        z = depth_seen_at(motion.inverse() * (z * ray), depth, k, motion);
+      moved.at<float>(v, u) = z > 0 ? static_cast<float>(z) : 0;
     }
   return moved;
 }

@@ -1,10 +1,7 @@
 #include "engine/slam/moved_things.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <limits>
-#include <optional>
 
 namespace surefield {
 

@@ -56,6 +56,7 @@ void Slam::Implementation::check_images(const Frame& frame) const {
   if (frame.colour.size() != size || frame.depth.size() != size || frame.colour.type() != CV_8UC3 ||
       frame.depth.type() != CV_32FC1 || !frame.colour.isContinuous() || !frame.depth.isContinuous())
     throw UsageError("the frame's images do not have the size and type that the intrinsics ask for");
+  if (!std::isfinite(frame.depth_after)) throw UsageError("the frame's depth_after is no number of seconds");
 }
 
 Frame Slam::Implementation::within_reach(const Frame& frame) const {

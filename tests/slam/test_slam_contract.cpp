@@ -1,7 +1,9 @@
 // What feed() promises: what an error changes, what may be read when, who is told of poses that change.
 #include <doctest/doctest.h>
 
+
 #include <algorithm>
+#include <cmath>
 #include <opencv2/imgproc.hpp>
 #include <optional>
 
@@ -69,6 +71,9 @@ TEST_CASE("a frame that fails before mapping was never fed, wherever it fails") 
   CHECK_THROWS_WITH_AS(failing.feed(frames[3]), "the descriptor fails", InputError);
   CHECK_THROWS_AS(failing.feed(frames[7]), InputError);
   CHECK_THROWS_AS(failing.feed(resize_frame(frames[3], 0.5)), UsageError);
+  Frame untimed = frames[3];
+  untimed.depth_after = NAN;
+  CHECK_THROWS_AS(failing.feed(untimed), UsageError);
   CHECK_THROWS_AS(failing.feed(frames[3], [](const FrameReport&) { throw UsageError("not now"); }),
                   UsageError);
   CHECK(failing.usable());
