@@ -1,7 +1,6 @@
 // What feed() promises: what an error changes, what may be read when, who is told of poses that change.
 #include <doctest/doctest.h>
 
-
 #include <algorithm>
 #include <cmath>
 #include <opencv2/imgproc.hpp>
