@@ -4,12 +4,9 @@
 #include "ssim.glsl"
 #include "pixel_upstream.glsl"
 
-const float SIMILAR = 0.2;   // mean difference of colours up to which a render may be what is seen
-
 // One invocation per strip of STRIP pixels of a column, as in ssim_columns: finishes the blur of SSIM's slopes and adds
 // the L1 terms. A pixel without sensor depth has no part in them, so that
-// no Gaussian grows where nothing was measured; it only thins what does not look like it. One without a median has none
-// in L_align.
+// no Gaussian grows where nothing was measured; one without a median none in L_align.
 void main() {
   const uint strips = (params.height + STRIP - 1) / STRIP;
   const uint i = gl_GlobalInvocationID.x;
@@ -56,10 +53,6 @@ void main() {
       g.uncertainty = params.w_variance * per_valid;
       sums.depth += abs(depth - sensor);
       sums.variance += geo.z;
-    }
-    if (sensor == 0 && image.a > 0) {
-      const vec3 off = abs((image.rgb - (1 - image.a) * params.background) / image.a - target);
-      g.opacity = params.w_colour * per_valid * max((off.r + off.g + off.b) / 3 - SIMILAR, 0.0);
     }
     if (geo.y > 0) {
       const float s = params.w_align * per_median * sign(depth - geo.y);

@@ -112,20 +112,6 @@ double isotropy_term(const Gaussians& gaussians, std::span<const uint8_t> visibl
   return mean(sum, count);
 }
 
-/// Adds the derivatives by the opacity of pixels that are not `valid`; see mapping_loss().
-void thin_what_is_unlike(const Images& rendered, const Observation& observed,
-                         const std::vector<uint8_t>& valid, double weight, ImageGradients& gradients) {
-  constexpr double kSimilar = 0.2;
-  const double count = std::max<double>(1, static_cast<double>(std::count(valid.begin(), valid.end(), 1)));
-  for (std::size_t i = 0; i < valid.size(); ++i) {
-    if (valid[i] || rendered.opacity[i] <= 0) continue;
-    double unlike = 0;
-    for (std::size_t c = 3 * i; c < 3 * i + 3; ++c)
-      unlike += std::abs(rendered.colour[c] / rendered.opacity[i] - observed.colour[c]) / 3;
-    gradients.opacity[i] += weight * std::max(unlike - kSimilar, 0.0) / count;
-  }
-}
-
 std::vector<uint8_t> valid_depth_mask(const Observation& observed) {
   std::vector<uint8_t> mask;
   for (const float depth : observed.depth) mask.push_back(valid_depth(depth));
@@ -160,7 +146,6 @@ MappingLoss mapping_loss(const Images& rendered, const Observation& observed, co
   const std::vector<uint8_t> valid = valid_depth_mask(observed);
 
   loss.colour = colour_term(rendered, observed, valid, settings.colour, loss.images);
-  if (settings.thin) thin_what_is_unlike(rendered, observed, valid, settings.colour, loss.images);
   const std::vector<double> target(observed.colour.begin(), observed.colour.end());
   const Ssim similarity = ssim(rendered.width, rendered.height, rendered.colour, target, valid);
   loss.ssim = 1 - similarity.value;

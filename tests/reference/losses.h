@@ -30,7 +30,6 @@ struct MappingLossSettings {
   double variance = 0.15;
   double isotropy_epsilon = 1.0;  ///< ratio of the largest to the smallest scale that is not penalised
   DepthKind depth_kind = DepthKind::alpha;
-  bool thin = true;  ///< see mapping_loss()
 };
 
 /// The mapping loss, its six terms before weighting, and the derivatives of the weighted sum.
@@ -48,9 +47,6 @@ struct MappingLoss {
 
 /// The mapping loss of eq. 18 over `rendered`. `visible` has one flag per Gaussian: whether it counts in the
 /// isotropy term. A mean over nothing is 0; |x| has derivative 0 at 0.
-/// A pixel without sensor depth has no part in any term, but with `thin` its opacity has a derivative of its
-/// own: the weight of the colour term times what the mean over channels of |I / O - observed| exceeds 0.2 by,
-/// over the number of valid pixels. It thins what does not look like what is seen.
 MappingLoss mapping_loss(const Images& rendered, const Observation& observed, const Gaussians& gaussians,
                          std::span<const uint8_t> visible, const MappingLossSettings& settings = {});
 

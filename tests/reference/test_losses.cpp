@@ -89,8 +89,6 @@ TEST_CASE("the terms of the mapping loss by hand; the pixel without depth takes 
                           .epsilon(1e-12));
   CHECK(loss.images.depth == std::vector<double>{0.25 - 0.25, 0});
   CHECK(loss.images.depth_median == std::vector<double>{0.25, 0});
-  CHECK(loss.images.opacity[0] == 0);
-  CHECK(loss.images.opacity[1] == doctest::Approx(0.7 * (0.25 - 0.2)).epsilon(1e-12));
   CHECK(loss.images.uncertainty == std::vector<double>{0.15, 0});
   CHECK(loss.log_scales[0].isApprox(Eigen::Vector3d(-0.2, 0, 0.2)));
   CHECK(loss.log_scales[1].isZero(0));
@@ -111,7 +109,6 @@ TEST_CASE("the mapping loss's gradients agree with finite differences, alone and
       CAPTURE(term);
       MappingLossSettings settings;
       settings.depth_kind = kind;
-      settings.thin = false;  // a derivative of no loss
       double* weights[] = {&settings.colour, &settings.ssim,     &settings.depth,
                            &settings.align,  &settings.isotropy, &settings.variance};
       for (int i = 0; i < 6 && term < 6; ++i) *weights[i] = i == term ? 1 : 0;

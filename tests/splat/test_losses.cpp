@@ -113,7 +113,7 @@ TEST_CASE("the mapping loss and its gradient agree with the oracle") {
     }
 }
 
-TEST_CASE("hidden pixels have no part in the mapping loss, nor thin what is there") {
+TEST_CASE("hidden pixels have no part in the mapping loss") {
   gpu::Device& device = testing::device();
   Rasteriser rasteriser(device);
   Mapper mapper(device);
