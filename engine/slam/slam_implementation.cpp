@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "engine/slam/depth_timing.h"
-#include "engine/slam/moved_things.h"
 #include "engine/slam/spawn.h"
 #include "engine/types/error.h"
 
@@ -15,7 +14,6 @@ namespace surefield {
 
 namespace {
 
-constexpr double kNoticed = 0.5;          // pixels by which depth and colour of the first frame may be apart
 constexpr std::size_t kKeyframeRest = 3;  // frames between keyframes that are due to little overlap
 
 FrameView view_of(const Frame& frame, const SlamSettings& settings) {
@@ -176,34 +174,6 @@ void Slam::Implementation::map_first(const Frame& frame) {
   keyframes.set_window({0}, settings.tracking.gauss_newton.references);
 }
 
-bool Slam::Implementation::shows_depth_moved(const FrameReport& second) const {
-  if (!first_frame || second.state != TrackingState::Good) return false;
-  const CameraMotion motion = motion_from_first(second);
-  return motion.seconds > 0 && largest_shift(first_frame->depth, intrinsics,
-                                             depth_to_colour(first_frame->depth_after, motion)) > kNoticed;
-}
-
-CameraMotion Slam::Implementation::motion_from_first(const FrameReport& second) const {
-  return {second.world_to_camera * history.world_to_camera(0).inverse(),
-          second.timestamp - history.report(0).timestamp};
-}
-
-void Slam::Implementation::begin_again(const FrameReport& second) {
-  Frame first = *std::exchange(first_frame, std::nullopt);
-  const CameraMotion motion = motion_from_first(second);
-  tracker.expect(motion);
-  first.depth = move_depth(first.depth, intrinsics, depth_to_colour(first.depth_after, motion));
-  FrameReport report = history.last_report();
-  Sighting sighting = sight_first(first, make_colour_grid(first), report);
-  Keyframe keyframe =
-      make_keyframe(first, sighting.image.keep(), keyframes[0].camera, std::move(sighting.points));
-  keyframe.grid = std::move(sighting.grid);
-  keyframe.features = std::move(sighting.features);
-  engine.release(keyframes[0].frame);
-  keyframes.replace_first(std::move(keyframe));
-  map_first(first);
-}
-
 void Slam::Implementation::extend_map(const Frame& frame, Sighting sighting) {
   const FrameReport& report = history.last_report();
   tracker.accept(report);
@@ -220,6 +190,7 @@ void Slam::Implementation::map_keyframe(const Frame& frame, Sighting sighting) {
   Frame mapped = add_keyframe(frame, std::move(sighting));
   FrameReport& report = history.last_report();
   hide_moved(mapped);
+  brighten_dim();
   upkeep.spawn(mapped);
   const KeyframeWindow window = keyframes.choose_window(upkeep.near());
   const MappingPlan plan = upkeep.plan(window);
@@ -253,40 +224,6 @@ Frame Slam::Implementation::add_keyframe(const Frame& frame, Sighting sighting) 
   history.make_last_keyframe();
   tracker.begin_keyframe();
   return mapped;
-}
-
-void Slam::Implementation::hide_moved(Frame& mapped) {
-  const DepthNoise noise = noise_of(settings.sensor);
-  const auto view_of_keyframe = [&](int k) { return DepthView{keyframes[k].grid, keyframes[k].camera}; };
-  const int newest = keyframes.newest();
-  std::vector<DepthView> others;
-  for (int k : keyframes.window()) others.push_back(view_of_keyframe(k));
-  const DepthView own = view_of_keyframe(newest);
-  const std::vector<uint8_t> cells = moved_cells(own, others, noise);
-  for (int k : keyframes.window()) hide(k, moved_cells(view_of_keyframe(k), std::span(&own, 1), noise));
-  if (cells.empty()) return;
-  std::vector<uint8_t> pixels = hide(newest, cells);
-  mapped.depth = mapped.depth.clone();
-  mapped.depth.setTo(0, cv::Mat(mapped.depth.size(), CV_8U, pixels.data()));
-  history.last_report().moved = cv::mean(pixels)[0];
-}
-
-/// Takes these cells out of a keyframe; returns the flags of their pixels.
-std::vector<uint8_t> Slam::Implementation::hide(int k, const std::vector<uint8_t>& cells) {
-  if (cells.empty()) return {};
-  const Keyframe& keyframe = keyframes[k];
-  const auto pixels = pixels_of_cells(cells, keyframe.grid, {intrinsics.width, intrinsics.height});
-  engine.hide(keyframe.frame, pixels);
-  if (keyframe.tracked != keyframe.frame) engine.hide(keyframe.tracked, pixels);
-  keyframes.forget_depth(k, cells);
-  return pixels;
-}
-
-void Slam::Implementation::settle_exposure() {
-  if (const auto gains = history.usual_gains()) {
-    map_gains = gains->cwiseInverse();
-    history.multiply_gains(map_gains);
-  }
 }
 
 /// Notes the size of the map after a frame.

@@ -35,7 +35,7 @@ struct PendingFrame {
 };
 
 /// The parts of a run, and the steps that lead a frame through them: slam.cpp has their order,
-/// slam_implementation.cpp what they do.
+/// slam_implementation.cpp what they do, slam_corrections.cpp what later frames put right.
 struct Slam::Implementation {
   std::stop_source stop;  ///< of mapping; from any thread
   SlamSettings settings;
@@ -116,6 +116,10 @@ struct Slam::Implementation {
   /// Takes what moves out of the newest keyframe, whose images `mapped` are, and out of those that were last
   /// optimised together, where the one looks through what the other shows.
   void hide_moved(Frame& mapped);
+  /// A camera that fades in begins with images that are much darker than all others. Where the newest
+  /// keyframe shows all before it to be, they, and the map, are brought to its exposure, which the map shall
+  /// have from here on.
+  void brighten_dim();
   std::vector<uint8_t> hide(int k, const std::vector<uint8_t>& cells);
   void measure();
   /// Gives the map the exposure that most frames have.

@@ -133,6 +133,12 @@ TEST_CASE("a run that fades in from black begins when the exposure has settled")
   check_brightness(result, grey(1));
 }
 
+TEST_CASE("a run that begins in the dark and becomes bright has a bright map") {
+  const LitRun fade = run([](int i) { return grey(std::min(1.0, 0.12 + 0.3 * i)); });
+  CHECK(fade.lost() == 0);
+  check_brightness(fade, grey(1));
+}
+
 TEST_CASE("black frames in the middle are passed over, without a pose, and tracking goes on after them") {
   const LitRun result = run([](int i) { return grey(i >= 6 && i < 9 ? 0 : 1); });
   CHECK(result.passed_over == std::vector{6, 7, 8});
