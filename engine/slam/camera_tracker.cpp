@@ -33,17 +33,16 @@ Pose CameraTracker::predict() const {
   const std::size_t n = history_.size();
   if (n < 2) return history_.world_to_camera(n - 1);
   const Pose last = history_.world_to_camera(n - 1);
-  if (history_.report(n - 1).lost() || history_.report(n - 2).lost()) return last;
-  return last * history_.world_to_camera(n - 2).inverse() * last;
+  const auto motion = last_motion();
+  return motion ? motion->motion * last : last;
 }
 
 std::optional<CameraMotion> CameraTracker::last_motion() const {
   const std::size_t n = history_.size();
   if (n == 1) return expected_;
   if (n < 2 || history_.report(n - 1).lost() || history_.report(n - 2).lost()) return std::nullopt;
-  const double seconds = history_.report(n - 1).timestamp - history_.report(n - 2).timestamp;
-  if (!(seconds > 0)) return std::nullopt;
-  return CameraMotion{history_.world_to_camera(n - 1) * history_.world_to_camera(n - 2).inverse(), seconds};
+  return CameraMotion{history_.world_to_camera(n - 1) * history_.world_to_camera(n - 2).inverse(),
+                      history_.report(n - 1).timestamp - history_.report(n - 2).timestamp};
 }
 
 void CameraTracker::track(FrameHandle image, FrameFeatures& features, const Pose& start,

@@ -32,7 +32,7 @@ class CameraTracker {
 
   /// Where the next frame is thought to be, world to camera. Needs a frame before it.
   Pose predict() const;
-  /// The motion to the last frame; none where one of the two is lost, or there is no time between them.
+  /// The motion to the last frame; none where one of the two is lost.
   std::optional<CameraMotion> last_motion() const;
   /// Says what last_motion() is as long as there is only one frame.
   void expect(const CameraMotion& motion) { expected_ = motion; }
@@ -63,9 +63,9 @@ class CameraTracker {
   const Intrinsics intrinsics_;
   const KeyframeGraph& keyframes_;
   const FrameHistory& history_;
-  std::deque<TrackingFit> recent_;  ///< of the last good frames
-  std::optional<CameraMotion> expected_;
-  double valid_after_keyframe_ = 0;  ///< valid_fraction of the first frame tracked after it; 0: none yet
+  std::deque<TrackingFit> recent_;        ///< of the last good frames
+  std::optional<CameraMotion> expected_;  ///< to the second frame, once it has been tracked for that alone
+  double valid_after_keyframe_ = 0;       ///< valid_fraction of the first frame tracked after it; 0: none yet
 };
 
 }  // namespace surefield

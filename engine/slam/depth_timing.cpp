@@ -46,6 +46,7 @@ double depth_seen_at(const Eigen::Vector3d& point, const cv::Mat& depth, const I
 }  // namespace
 
 Pose depth_to_colour(double depth_after, const CameraMotion& motion) {
+  if (!(motion.seconds > 0)) return Pose::Identity();
   const double share = -depth_after / motion.seconds;
   const Eigen::AngleAxisd turn(motion.motion.rotation());
   Pose part = Pose::Identity();
@@ -56,12 +57,13 @@ Pose depth_to_colour(double depth_after, const CameraMotion& motion) {
 
 cv::Mat move_depth(const cv::Mat& depth, const Intrinsics& k, const Pose& motion) {
   cv::Mat moved = cv::Mat::zeros(depth.size(), CV_32FC1);
+  const Pose back = motion.inverse();
   for (int v = 0; v < depth.rows; ++v)
     for (int u = 0; u < depth.cols; ++u) {
       const Eigen::Vector3d ray((u - k.cx) / k.fx, (v - k.cy) / k.fy, 1);
       double z = depth.at<float>(v, u);
       for (int round = 0; round < kRoundsOfLookup && z > 0; ++round)
-        z = depth_seen_at(motion.inverse() * (z * ray), depth, k, motion);
+        z = depth_seen_at(back * (z * ray), depth, k, motion);
       moved.at<float>(v, u) = z > 0 ? static_cast<float>(z) : 0;
     }
   return moved;

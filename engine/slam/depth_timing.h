@@ -9,11 +9,12 @@ namespace surefield {
 /// How a camera moves.
 struct CameraMotion {
   Pose motion = Pose::Identity();  ///< from its frame to that of some time later, less than half a turn
-  double seconds = 0;              ///< that time, positive
+  double seconds = 0;              ///< that time
 };
 
 /// From the camera when a depth image was taken to when its colour image was, so many seconds before
-/// (Frame::depth_after): rotation and translation each go on at a constant rate.
+/// (Frame::depth_after): rotation and translation each go on at a constant rate. No motion where no time
+/// passes.
 Pose depth_to_colour(double depth_after, const CameraMotion& motion);
 
 /// The depth image as the camera would have taken it elsewhere: `motion` takes points of the camera that took

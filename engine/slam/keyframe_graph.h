@@ -34,7 +34,8 @@ class KeyframeGraph {
   void add(Keyframe keyframe, Eigen::VectorXf descriptor);
   /// Puts another in the place of the first and only one, with the same descriptor.
   void replace_first(Keyframe keyframe) { keyframes_.front() = std::move(keyframe); }
-  /// Its colours are the map's times these gains, for mapping and for telling the light of frames.
+  /// Times these its colours are the map's, for mapping and for telling the light of frames; the image that
+  /// frames are aligned to stays as it is.
   void set_light(int k, const Eigen::Vector3f& gains) { keyframes_[k].gains = keyframes_[k].light = gains; }
   void set_gains(int k, const Eigen::Vector3f& gains) { keyframes_[k].gains = gains; }
 

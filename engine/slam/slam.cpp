@@ -27,6 +27,8 @@ FrameReport Slam::feed(const Frame& taken, const Tracked& tracked) {
   Sighting sighting =
       first ? s.sight_first(frame, std::move(grid), found) : s.sight(frame, std::move(grid), found);
   if (s.shows_depth_moved(found)) {
+    // The map was made of depth that is not where its colours are; the second frame is tracked in the better
+    // one.
     s.change_map(false, [&] { s.begin_again(found); });
     frame = s.within_reach(taken);
     found = {.index = frame.index, .timestamp = frame.timestamp};

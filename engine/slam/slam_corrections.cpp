@@ -18,9 +18,8 @@ constexpr int kDimKeyframes = 3;  // the first ones, that may have been
 
 bool Slam::Implementation::shows_depth_moved(const FrameReport& second) const {
   if (!first_frame || second.state != TrackingState::Good) return false;
-  const CameraMotion motion = motion_from_first(second);
-  return motion.seconds > 0 && largest_shift(first_frame->depth, intrinsics,
-                                             depth_to_colour(first_frame->depth_after, motion)) > kNoticed;
+  const Pose motion = depth_to_colour(first_frame->depth_after, motion_from_first(second));
+  return largest_shift(first_frame->depth, intrinsics, motion) > kNoticed;
 }
 
 CameraMotion Slam::Implementation::motion_from_first(const FrameReport& second) const {
@@ -63,7 +62,9 @@ void Slam::Implementation::hide_moved(Frame& mapped) {
 void Slam::Implementation::brighten_dim() {
   const Eigen::Vector3f as_it_is = Eigen::Vector3f::Ones();
   const Keyframe& newest = keyframes[keyframes.newest()];
-  if (newest.light != as_it_is || keyframes.newest() > kDimKeyframes) return;
+  if (keyframes.newest() > kDimKeyframes) return;
+  for (const Keyframe& keyframe : keyframes.all())
+    if (keyframe.light != as_it_is) return;
   const std::vector<LitView> bright{{newest.grid, as_it_is, newest.camera}};
   std::vector<Eigen::Vector3f> gains;
   for (int k = 0; k < keyframes.newest(); ++k) {

@@ -96,7 +96,7 @@ Frame FileRecording::read_frame(int i) const {
   Frame frame;
   frame.index = i;
   frame.timestamp = stored.timestamp;
-  frame.depth_after = stored.depth_timestamp.value_or(stored.timestamp) - stored.timestamp;
+  frame.depth_after = depth_after(i);
   frame.colour = load_colour(find_spelling(stored.colour));
   frame.depth = load_depth(find_spelling(stored.depth));
   if (!undistortion_x_.empty()) undistort(frame);

@@ -1,8 +1,20 @@
 #include "engine/sources/recording.h"
 
+#include <cmath>
 #include <utility>
 
 namespace surefield {
+
+namespace {
+
+constexpr double kOneClock = 0.1;  // seconds that stamps of one frame may be apart
+
+}  // namespace
+
+double Recording::depth_after(int i) const {
+  const double after = depth_timestamp(i) - timestamp(i);
+  return std::abs(after) <= kOneClock ? after : 0;
+}
 
 std::optional<Frame> Recording::next() {
   while (next_ < count()) {

@@ -34,6 +34,10 @@ class Recording : public FrameSource {
   /// Seconds; when the depth image of frame `i` was taken, where the sequence says so, else timestamp(i).
   virtual double depth_timestamp(int i) const { return timestamp(i); }
 
+  /// Frame::depth_after of frame `i`; 0 where its stamps are so far apart (0.1 s) that they are of two
+  /// clocks.
+  double depth_after(int i) const;
+
   /// Reads and undistorts frame `i` at the original size, 0 <= i < count(). A missing or corrupt image is no
   /// exception: the caller skips the frame, counts it and reports the problem. Depth is not cut at any
   /// maximum.

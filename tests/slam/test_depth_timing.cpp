@@ -37,6 +37,7 @@ TEST_CASE("depth that was taken before colour moves on with the camera, later on
   const CameraMotion motion{small_motion(), 0.03};
   CHECK(depth_to_colour(-0.03, motion).isApprox(small_motion(), 1e-12));
   CHECK(depth_to_colour(0, motion).isApprox(Pose::Identity(), 1e-12));
+  CHECK(depth_to_colour(-0.03, {small_motion(), 0}).isApprox(Pose::Identity(), 1e-12));
   const Pose third = depth_to_colour(-0.01, motion);
   CHECK((third * third * third).isApprox(small_motion(), 1e-3));
   CHECK((depth_to_colour(0.03, motion) * small_motion()).isApprox(Pose::Identity(), 1e-3));

@@ -171,3 +171,14 @@ TEST_CASE("poses of the tracked camera and of the reference camera turn into eac
   const Trajectory back = of_tracked_camera(reference, camera);
   for (std::size_t i : {0, 1}) CHECK(back[i].camera_to_world.isApprox(tracked[i].camera_to_world, 1e-12));
 }
+
+TEST_CASE("the depth of a frame comes after its colour by its stamps, unless these are of two clocks") {
+  struct Stamped : test::FakeRecording {
+    Stamped() : FakeRecording(4) {}
+    double depth_timestamp(int i) const override { return i + 0.05 * i * i; }
+  } const recording;
+  CHECK(recording.depth_after(0) == 0);
+  CHECK(recording.depth_after(1) == doctest::Approx(0.05));
+  CHECK(recording.depth_after(2) == 0);
+  CHECK(test::FakeRecording(2).depth_after(1) == 0);
+}

@@ -92,6 +92,7 @@ TEST_CASE("plain: names that are time stamps give order, pairs and stamps") {
   CHECK(values(dataset) == up_to(4));
   CHECK(dataset.recording->timestamp(1) == doctest::Approx(1305031102.208304).epsilon(1e-12));
   CHECK(dataset.recording->depth_timestamp(1) == doctest::Approx(1305031102.213).epsilon(1e-12));
+  CHECK(dataset.recording->depth_after(1) == doctest::Approx(0.004696).epsilon(1e-3));
 }
 
 TEST_CASE("plain: a list of times alone, in nanoseconds, gives the stamps") {

@@ -90,9 +90,10 @@ void look_when_depth_was_taken(std::vector<FusionView>& views, const Trajectory&
                                const Recording& recording) {
   const PoseTrack track(trajectory);
   for (FusionView& view : views) {
-    const double stamp = recording.depth_timestamp(view.index);
-    if (stamp == recording.timestamp(view.index)) continue;
-    if (const auto pose = track.at(stamp)) view.camera.world_to_camera = pose->inverse();
+    const double after = recording.depth_after(view.index);
+    if (after == 0) continue;
+    const auto pose = track.at(recording.timestamp(view.index) + after);
+    if (pose) view.camera.world_to_camera = pose->inverse();
   }
 }
 
