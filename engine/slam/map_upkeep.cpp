@@ -9,8 +9,9 @@
 namespace surefield {
 
 void MapUpkeep::begin(const Frame& frame) {
-  extent_ = scene_extent(frame);
   const Camera& camera = keyframes_[keyframes_.newest()].camera;
+  extent_ = scene_extent(frame);
+  pixel_ = extent_ * 2 / (camera.intrinsics.fx + camera.intrinsics.fy);
   engine_.assign(spawn_gaussians(frame, camera, nullptr, settings_.spawn), settings_.depth_model);
 }
 
@@ -51,7 +52,7 @@ void MapUpkeep::optimise(const std::vector<int>& order, const std::vector<int>& 
                        std::find(refined.begin(), refined.end(), k) != refined.end(), keyframes_[k].gains});
     steps.push_back(entry->second);
   }
-  const MappingResult result = engine_.optimise(views, steps, settings_.mapping, extent_, stop_);
+  const MappingResult result = engine_.optimise(views, steps, settings_.mapping, pixel_, stop_);
   for (const auto& [k, view] : view_of_keyframe) keyframes_.move(k, views[view].camera.world_to_camera);
   report.mapping_iterations += result.iterations;
   report.mapping_ms += result.milliseconds;

@@ -63,6 +63,7 @@ class MapUpkeep {
   ActiveRegion region_;
   std::mt19937 random_;
   double extent_ = 1;  ///< of the scene, metres
+  double pixel_ = 1;   ///< what one covers at that distance, metres
 };
 
 }  // namespace surefield

@@ -56,8 +56,8 @@ struct SlamSettings {
   DepthSensor sensor = DepthSensor::StructuredLight;
   double depth_max = 0;
   double map_device_mb = 2048;
-  int first_iterations = 100;
-  int mapping_iterations = 40;
+  int first_iterations = 50;
+  int mapping_iterations = 20;
   DepthModel depth_model = DepthModel::Plane;
   TrackingSettings tracking;
   MappingSettings mapping;

@@ -55,6 +55,12 @@ struct SplatEngine::Implementation {
     device.finish_pipelines();
   }
 
+  /// The map, to be changed.
+  GaussianMap& change_map() {
+    gauss_newton_tracker.forget_render();
+    return map;
+  }
+
   /// The views' cameras on the device.
   std::span<CameraVariable> cameras_of(std::span<const MappingView> views) {
     while (cameras.size() < views.size()) cameras.emplace_back(device, Camera{});
@@ -65,16 +71,23 @@ struct SplatEngine::Implementation {
   /// Takes the steps of `order`, a few per submission.
   /// Returns how many steps were done.
   std::size_t run_steps(std::span<const MappingView> views, std::span<CameraVariable> view_cameras,
-                        std::span<const int> order, const MappingSettings& settings, double extent,
+                        std::span<const int> order, const MappingSettings& settings, double pixel,
                         const std::stop_token& stop) {
+    GaussianMap& changed = change_map();
+    rasteriser.lists.forget();
     gpu::Recorder recorder(device);
     for (std::size_t begin = 0; begin < order.size(); begin += kMappingBatch) {
       if (stop.stop_requested()) return begin;
       const auto batch = order.subspan(begin, std::min(kMappingBatch, order.size() - begin));
       rasteriser.lists.submit(recorder, batch.size(), [&](std::size_t step) {
         const MappingView& view = views[batch[step]];
-        mapper.record_step(recorder, rasteriser, map, frames.on_device(view.frame), view_cameras[batch[step]],
-                           view.refine_pose, settings, extent);
+        CameraVariable& camera = view_cameras[batch[step]];
+        mapper.record_step(recorder, rasteriser, changed,
+                           {.frame = frames.on_device(view.frame),
+                            .camera = camera,
+                            .refine_pose = view.refine_pose,
+                            .same_lists = rasteriser.lists.serve(camera.camera)},
+                           settings, pixel);
       });
     }
     return order.size();
@@ -100,12 +113,12 @@ void SplatEngine::hide(FrameHandle frame, std::span<const uint8_t> pixels) {
 }
 
 void SplatEngine::assign(const GaussianCloud& cloud, DepthModel depth_model) {
-  implementation_->map.assign(cloud, depth_model);
+  implementation_->change_map().assign(cloud, depth_model);
   implementation_->blocks.clear();
 }
 
 void SplatEngine::insert(const GaussianCloud& cloud) {
-  implementation_->map.append(cloud);
+  implementation_->change_map().append(cloud);
 }
 
 GaussianCloud SplatEngine::map() const {
@@ -131,11 +144,15 @@ bool SplatEngine::is_whole(uint32_t births) const {
 }
 
 bool SplatEngine::recall(const WorldPoints& points) {
-  return implementation_->blocks.recall(implementation_->map, points);
+  Implementation& i = *implementation_;
+  const uint32_t before = i.map.size();
+  const bool whole = i.blocks.recall(i.map, points);
+  if (i.map.size() != before) i.change_map();
+  return whole;
 }
 
 int SplatEngine::focus(std::span<const WorldPoints> regions, uint32_t births) {
-  return implementation_->blocks.focus(implementation_->map, regions, births);
+  return implementation_->blocks.focus(implementation_->change_map(), regions, births);
 }
 
 RenderImages SplatEngine::render(const Camera& camera) const {
@@ -175,12 +192,12 @@ TrackingResult SplatEngine::track(FrameHandle frame, const Camera& start, const 
 }
 
 MappingResult SplatEngine::optimise(std::span<MappingView> views, std::span<const int> order,
-                                    const MappingSettings& settings, double extent,
+                                    const MappingSettings& settings, double pixel,
                                     const std::stop_token& stop) {
   const auto begin = std::chrono::steady_clock::now();
   Implementation& i = *implementation_;
   const std::span<CameraVariable> cameras = i.cameras_of(views);
-  const std::size_t done = i.run_steps(views, cameras, order, settings, extent, stop);
+  const std::size_t done = i.run_steps(views, cameras, order, settings, pixel, stop);
   for (std::size_t v = 0; v < views.size(); ++v)
     if (views[v].refine_pose) views[v].camera.world_to_camera = pose_of(cameras[v].camera.download(1)[0]);
 
@@ -204,13 +221,13 @@ JudgeResult SplatEngine::judge(std::span<const MappingView> views, const Mapping
                           cameras[v].camera, settings);
     });
   }
-  i.judge.record_verdict(recorder, i.map, settings);
+  i.judge.record_verdict(recorder, i.change_map(), settings);
   recorder.submit();
   return {.uncertain = i.judge.read_uncertain(), .milliseconds = milliseconds_since(begin)};
 }
 
 DensifyResult SplatEngine::densify(const DensifySettings& settings) {
-  return implementation_->densifier.densify(implementation_->map, settings);
+  return implementation_->densifier.densify(implementation_->change_map(), settings);
 }
 
 EngineReport SplatEngine::report() const {

@@ -66,10 +66,10 @@ class SplatEngine {
                        std::span<const TrackingReference> references = {});
 
   /// Optimises the map over views[order[0]], views[order[1]], ..., one step each, and the poses of the views
-  /// that ask for it. `extent` (metres) scales the rates of means and scales. Where `stop` is asked for, the
-  /// steps that remain are left out.
+  /// that ask for it. `pixel`, the metres that one covers at the scene's distance, scales the rate of the
+  /// centres. Where `stop` is asked for, the steps that remain are left out.
   MappingResult optimise(std::span<MappingView> views, std::span<const int> order,
-                         const MappingSettings& settings, double extent, const std::stop_token& stop = {});
+                         const MappingSettings& settings, double pixel, const std::stop_token& stop = {});
 
   /// Computes the uncertainty of the Gaussians that dominate pixels of the views (paper eq. 13) and lowers
   /// the opacity of the uncertain ones. Does nothing where `settings` says that none is judged.

@@ -25,6 +25,9 @@ constexpr double kEvidencePixels = 6400;
 constexpr std::size_t kParts = 2 * glsl::ALIGN_SOURCES;
 // Tracking ends when an alignment has moved the camera by less, radians and metres.
 constexpr double kStill = 3e-4;
+// A frame is aligned to the last one's render where the camera is expected to have moved by less since,
+// radians and metres.
+constexpr double kNear = 0.1;
 // Where a keyframe has no depth, metres: half an inverse metre, give or take as much, is anything from a
 // metre to infinity.
 constexpr float kUnmeasured = 2;
@@ -41,6 +44,31 @@ double motion_of(const glsl::AlignState& state) {
   const glsl::vec3 &t = state.translation, &x = state.rotation0, &y = state.rotation1, &z = state.rotation2;
   const Eigen::Vector3d turn(z.y - y.z, x.z - z.x, y.x - x.y);
   return std::max(turn.norm() / 2, Eigen::Vector3d(t.x, t.y, t.z).norm());
+}
+
+/// Before the first step: the camera that was rendered is where the alignment starts.
+glsl::AlignState first_state(const Camera& start, std::span<const Camera> references) {
+  const glsl::CameraState first = to_device(start);
+  glsl::AlignState state{.base = first,
+                         .rotation0 = {1, 0, 0},
+                         .rotation1 = {0, 1, 0},
+                         .rotation2 = {0, 0, 1},
+                         .best_camera = first,
+                         .best_loss = std::numeric_limits<float>::max()};
+  for (glsl::AlignScales& scales : state.scales) scales = kFirstScales;
+  for (std::size_t i = 0; i < references.size(); ++i) state.references[i] = to_device(references[i]);
+  return state;
+}
+
+/// `rendered` is the camera that was rendered, and the alignment starts at `start`.
+void set_base(glsl::AlignState& state, const Camera& rendered, const Camera& start) {
+  const Pose motion = start.world_to_camera * rendered.world_to_camera.inverse();
+  const glsl::CameraState moved = to_device(Camera{start.intrinsics, motion});
+  state.base = to_device(rendered);
+  state.rotation0 = moved.rotation0;
+  state.rotation1 = moved.rotation1;
+  state.rotation2 = moved.rotation2;
+  state.translation = moved.translation;
 }
 
 template <std::size_t Count>
@@ -213,11 +241,9 @@ void GaussNewtonTracker::record_step(gpu::Recorder& recorder, const Rasteriser& 
 }
 
 /// Records what each source, and its photometric term alone, says of the pose that was just rendered.
-void GaussNewtonTracker::record_evidence(gpu::Recorder& recorder, const Rasteriser& rasteriser,
-                                         const SensorFrame& frame, std::size_t references,
-                                         const TrackingSettings& settings) {
+void GaussNewtonTracker::record_evidence(gpu::Recorder& recorder, const SensorFrame& frame,
+                                         std::size_t references, const TrackingSettings& settings) {
   if (!can_interpolate(levels_[0].size)) return;
-  record_points(recorder, rasteriser, settings);
   const uint32_t parts = 2 * (1 + static_cast<uint32_t>(references));
   uint32_t count = 0;
   for (uint32_t part = 0; part < parts; ++part)
@@ -236,7 +262,6 @@ void GaussNewtonTracker::record_evidence(gpu::Recorder& recorder, const Rasteris
 void GaussNewtonTracker::record_alignment(gpu::Recorder& recorder, const Rasteriser& rasteriser,
                                           const SensorFrame& frame, bool coarse_to_fine,
                                           std::size_t references, const TrackingSettings& settings) {
-  record_points(recorder, rasteriser, settings);
   if (coarse_to_fine)
     for (int level = kLevels - 1; level >= 0; --level)
       for (int i = 0; i < kFirstSteps[level]; ++i)
@@ -245,22 +270,41 @@ void GaussNewtonTracker::record_alignment(gpu::Recorder& recorder, const Rasteri
     for (int i = 0; i < kLaterSteps; ++i) record_step(recorder, rasteriser, frame, 0, references, settings);
 }
 
+/// Whether a frame that is expected at `start` can be aligned to this render.
+bool GaussNewtonTracker::serves(const LastRender& render, const Camera& start,
+                                const TrackingSettings& settings) const {
+  const Intrinsics &now = start.intrinsics, &then = render.camera.intrinsics;
+  const bool alike = now.width == then.width && now.height == then.height && now.fx == then.fx &&
+                     now.fy == then.fy && now.cx == then.cx && now.cy == then.cy &&
+                     settings.depth == render.depth && settings.minimum_opacity == render.minimum_opacity &&
+                     settings.uncertainty_above == render.uncertainty_above;
+  const Pose motion = start.world_to_camera * render.camera.world_to_camera.inverse();
+  return alike && motion.translation().norm() < kNear && Eigen::AngleAxisd(motion.rotation()).angle() < kNear;
+}
+
 TrackingResult GaussNewtonTracker::track(Rasteriser& rasteriser, TrackingLoss& loss, const GaussianMap& map,
                                          const SensorFrame& frame, const Camera& start,
                                          const TrackingSettings& settings,
                                          std::span<const Camera> references) {
   const auto begin = std::chrono::steady_clock::now();
+  glsl::AlignState state = first_state(start, references);
   const glsl::CameraState first = to_device(start);
   camera_.upload(std::span(&first, 1));
-  glsl::AlignState state{.base = first, .best_camera = first, .best_loss = std::numeric_limits<float>::max()};
-  for (glsl::AlignScales& scales : state.scales) scales = kFirstScales;
-  for (std::size_t i = 0; i < references.size(); ++i) state.references[i] = to_device(references[i]);
-  state_.upload(std::span(&state, 1));
-
   gpu::Recorder recorder(device_);
   resize(recorder, frame.size);
   record_sensor(recorder, frame);
   TrackingResult result;
+  if (last_render_ && serves(*last_render_, start, settings)) {
+    set_base(state, last_render_->camera, start);
+    state_.upload(std::span(&state, 1));
+    record_alignment(recorder, rasteriser, frame, true, references.size(), settings);
+    recorder.submit();
+    state = state_.download(1)[0];
+    ++result.iterations;
+  } else {
+    state_.upload(std::span(&state, 1));
+  }
+  last_render_.reset();
   const View view = tracking_view(frame, camera_, settings);
   for (bool last = false; !last;) {
     const bool is_first = result.iterations == 0;
@@ -268,14 +312,19 @@ TrackingResult GaussNewtonTracker::track(Rasteriser& rasteriser, TrackingLoss& l
     rasteriser.lists.submit(recorder, 1, [&](std::size_t) {
       loss.record(recorder, rasteriser, map, view, frame, settings);
       record_begin(recorder, rasteriser, loss, frame, settings);
+      record_points(recorder, rasteriser, settings);
       if (last)
-        record_evidence(recorder, rasteriser, frame, references.size(), settings);
+        record_evidence(recorder, frame, references.size(), settings);
       else
         record_alignment(recorder, rasteriser, frame, is_first, references.size(), settings);
     });
     state = state_.download(1)[0];
     if (!last) ++result.iterations;
   }
+  last_render_ = {{start.intrinsics, pose_of(state.base)},
+                  settings.minimum_opacity,
+                  settings.uncertainty_above,
+                  settings.depth};
 
   result.world_to_camera = pose_of(state.best_camera);
   result.loss = state.best_loss;

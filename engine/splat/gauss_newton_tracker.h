@@ -20,7 +20,8 @@ namespace surefield {
 /// map is rendered at the pose so far; the points of the render, and of the images of some keyframes, are
 /// aligned to the frame, coarse to fine, by intensity and by their distance along the normal, with the
 /// weights of t-distributions; then the map is rendered again. One or a few renders take the place of dozens.
-/// Everything but the decision to stop is on the device.
+/// The last render of a frame serves the next one to be aligned to, while the map stays as it is and the
+/// camera near. Everything but the decision to stop is on the device.
 class GaussNewtonTracker {
  public:
   explicit GaussNewtonTracker(gpu::Device& device);
@@ -35,6 +36,9 @@ class GaussNewtonTracker {
 
   /// The images of a frame have changed: no place holds it any more.
   void drop(FrameHandle frame);
+
+  /// The map has changed: the next frame is not aligned to the last render.
+  void forget_render() { last_render_.reset(); }
 
   /// Tracks `frame` from the pose of `start`; `references` are the cameras of the frames in the first places.
   TrackingResult track(Rasteriser& rasteriser, TrackingLoss& loss, const GaussianMap& map,
@@ -63,6 +67,15 @@ class GaussNewtonTracker {
     bool photometric = false;  ///< of that term alone
   };
 
+  /// The render that the points of the levels are of.
+  struct LastRender {
+    Camera camera;
+    double minimum_opacity = 0;
+    double uncertainty_above = 0;
+    DepthKind depth = DepthKind::Normalised;
+  };
+
+  bool serves(const LastRender& render, const Camera& start, const TrackingSettings& settings) const;
   void resize(gpu::Recorder& recorder, const ImageSize& size);
   void record_sensor(gpu::Recorder& recorder, const SensorFrame& frame);
   void record_halves(gpu::Recorder& recorder, gpu::Array<glsl::vec2> Level::*image);
@@ -75,8 +88,8 @@ class GaussNewtonTracker {
                        const TrackingSettings& settings);
   void record_step(gpu::Recorder& recorder, const Rasteriser& rasteriser, const SensorFrame& frame, int level,
                    std::size_t references, const TrackingSettings& settings);
-  void record_evidence(gpu::Recorder& recorder, const Rasteriser& rasteriser, const SensorFrame& frame,
-                       std::size_t references, const TrackingSettings& settings);
+  void record_evidence(gpu::Recorder& recorder, const SensorFrame& frame, std::size_t references,
+                       const TrackingSettings& settings);
   void record_alignment(gpu::Recorder& recorder, const Rasteriser& rasteriser, const SensorFrame& frame,
                         bool coarse_to_fine, std::size_t references, const TrackingSettings& settings);
 
@@ -98,6 +111,7 @@ class GaussNewtonTracker {
   gpu::Array<glsl::AlignSums> evidence_;
   std::array<Level, kLevels> levels_;
   std::array<std::optional<FrameHandle>, kReferences> held_;
+  std::optional<LastRender> last_render_;
 };
 
 }  // namespace surefield

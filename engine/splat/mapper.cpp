@@ -75,8 +75,9 @@ void Mapper::record_ssim(gpu::Recorder& recorder, const Rasteriser& rasteriser, 
 
 void Mapper::record_loss(gpu::Recorder& recorder, Rasteriser& rasteriser, const GaussianMap& map,
                          const SensorFrame& frame, const CameraVariable& camera,
-                         const MappingSettings& settings) {
-  const View view{frame.size, camera.camera, frame.depth};
+                         const MappingSettings& settings, bool same_lists) {
+  View view{frame.size, camera.camera, frame.depth};
+  view.same_lists = same_lists;
   rasteriser.record_forward(recorder, map, view, Outputs::All);
   record_ssim(recorder, rasteriser, frame, camera.gains);
   const auto [width, height] = frame.size;
@@ -108,7 +109,7 @@ void Mapper::record_loss(gpu::Recorder& recorder, Rasteriser& rasteriser, const 
 }
 
 void Mapper::record_update(gpu::Recorder& recorder, const Rasteriser& rasteriser, GaussianMap& map,
-                           const MappingSettings& settings, double extent) {
+                           const MappingSettings& settings, double pixel) {
   const TileLists& lists = rasteriser.lists;
   recorder.dispatch_indirect(update_, lists.dispatch_args, TileLists::kVisibleArgs,
                              {.status = lists.status,
@@ -128,8 +129,8 @@ void Mapper::record_update(gpu::Recorder& recorder, const Rasteriser& rasteriser
                               .opacity_logits_m = map.opacity_logits.first_moment,
                               .opacity_logits_v = map.opacity_logits.second_moment,
                               .steps = map.steps},
-                             {.rate_mean = static_cast<float>(settings.rate_mean * extent),
-                              .rate_log_scale = static_cast<float>(settings.rate_log_scale * extent),
+                             {.rate_mean = static_cast<float>(settings.rate_mean * pixel),
+                              .rate_log_scale = static_cast<float>(settings.rate_log_scale),
                               .rate_rotation = static_cast<float>(settings.rate_rotation),
                               .rate_opacity = static_cast<float>(settings.rate_opacity)});
   recorder.dispatch_indirect(colour_update(map.sh_degree()), lists.dispatch_args, TileLists::kVisibleArgs,
@@ -146,13 +147,13 @@ void Mapper::record_update(gpu::Recorder& recorder, const Rasteriser& rasteriser
 }
 
 void Mapper::record_step(gpu::Recorder& recorder, Rasteriser& rasteriser, GaussianMap& map,
-                         const SensorFrame& frame, CameraVariable& camera, bool refine_pose,
-                         const MappingSettings& settings, double extent) {
-  record_loss(recorder, rasteriser, map, frame, camera, settings);
+                         const MappingStep& step, const MappingSettings& settings, double pixel) {
+  const auto& [frame, camera, refine_pose, same_lists] = step;
+  record_loss(recorder, rasteriser, map, frame, camera, settings, same_lists);
   rasteriser.record_backward(recorder, map, {frame.size, camera.camera, frame.depth}, settings.pose_gradient,
                              {.weight = static_cast<float>(settings.weight_isotropy),
                               .epsilon = static_cast<float>(settings.isotropy_epsilon)});
-  record_update(recorder, rasteriser, map, settings, extent);
+  record_update(recorder, rasteriser, map, settings, pixel);
   if (!refine_pose) return;
   recorder.dispatch(refine_pose_, 1,
                     {.status = rasteriser.lists.status,
@@ -166,7 +167,7 @@ void Mapper::record_step(gpu::Recorder& recorder, Rasteriser& rasteriser, Gaussi
 double Mapper::read_loss(const SensorFrame& frame, const MappingSettings& settings) const {
   const glsl::LossSums s = loss.download(1)[0];
   const double valid = std::max(1u, frame.valid_pixels), medians = std::max(1.0f, s.medians);
-  const double channels = 3 * valid, dissimilarity = frame.valid_pixels > 0 ? 1 - s.ssim / channels : 0;
+  const double channels = 3 * valid, dissimilarity = frame.valid_pixels > 0 ? 1 - s.ssim / valid : 0;
   return settings.weight_colour * s.colour / channels + settings.weight_ssim * dissimilarity +
          settings.weight_depth * s.depth / valid + settings.weight_align * s.align / medians +
          settings.weight_variance * s.variance / valid;

@@ -25,6 +25,14 @@ struct CameraVariable {
   void assign(const Camera& initial, const Eigen::Vector3f& view_gains = Eigen::Vector3f::Ones());
 };
 
+/// A step of mapping on one view.
+struct MappingStep {
+  const SensorFrame& frame;
+  CameraVariable& camera;
+  bool refine_pose = false;
+  bool same_lists = false;  ///< View::same_lists
+};
+
 /// Optimises the map, and poses beside it, with all six losses (paper eq. 14 to 18 and 21).
 class Mapper {
  public:
@@ -32,12 +40,13 @@ class Mapper {
 
   /// Records render, mapping loss and dL/d(images): the gradient lands in rasteriser.pixel_upstream.
   void record_loss(gpu::Recorder& recorder, Rasteriser& rasteriser, const GaussianMap& map,
-                   const SensorFrame& frame, const CameraVariable& camera, const MappingSettings& settings);
+                   const SensorFrame& frame, const CameraVariable& camera, const MappingSettings& settings,
+                   bool same_lists = false);
 
-  /// Records one step on one view: loss, backward, Adam on every visible Gaussian and, if asked, on the pose.
-  void record_step(gpu::Recorder& recorder, Rasteriser& rasteriser, GaussianMap& map,
-                   const SensorFrame& frame, CameraVariable& camera, bool refine_pose,
-                   const MappingSettings& settings, double extent);
+  /// Records one step: loss, backward, Adam on every visible Gaussian and, if asked, on the pose.
+  /// `pixel`: metres, that one covers at the scene's distance.
+  void record_step(gpu::Recorder& recorder, Rasteriser& rasteriser, GaussianMap& map, const MappingStep& step,
+                   const MappingSettings& settings, double pixel);
 
   /// The weighted loss that the last submitted record_loss() computed, without L_iso.
   double read_loss(const SensorFrame& frame, const MappingSettings& settings) const;
@@ -48,7 +57,7 @@ class Mapper {
   void record_ssim(gpu::Recorder& recorder, const Rasteriser& rasteriser, const SensorFrame& frame,
                    const glsl::vec3& gains);
   void record_update(gpu::Recorder& recorder, const Rasteriser& rasteriser, GaussianMap& map,
-                     const MappingSettings& settings, double extent);
+                     const MappingSettings& settings, double pixel);
   gpu::Pass<passes::update_colours>& colour_update(int sh_degree);
 
   gpu::Device& device_;

@@ -100,7 +100,10 @@ Rasteriser::BackwardPasses& Rasteriser::backward_passes(const GaussianMap& map, 
 void Rasteriser::record_forward(gpu::Recorder& recorder, const GaussianMap& map, const View& view,
                                 Outputs outputs) {
   recorder.reserve(pixel_upstream, view.size.pixels());
-  lists.record(recorder, map, view.camera, view.size, view.uncertainty_above);
+  if (view.same_lists)
+    lists.record_again(recorder, map, view.camera, view.uncertainty_above);
+  else
+    lists.record(recorder, map, view.camera, view.size, view.uncertainty_above);
   record_blending(recorder, view, outputs);
 }
 

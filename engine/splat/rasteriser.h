@@ -30,6 +30,7 @@ struct View {
   const gpu::Array<float>& sensor_depth;
   float uncertainty_above = std::numeric_limits<float>::infinity();
   Eigen::Vector3f background = Eigen::Vector3f::Zero();  ///< RGB, 0 to 1
+  bool same_lists = false;  ///< the tile lists at hand are used again (TileLists::serve())
 };
 
 /// L_iso (paper eq. 17): its weight, and the ratio of the largest scale to the smallest that is free.

@@ -105,11 +105,11 @@ struct MappingSettings {
   DepthKind depth = DepthKind::Normalised;
   double uncertainty_above = 0.025;
   double uncertain_opacity = 0.01;
-  double rate_mean = 3e-4;
-  double rate_log_scale = 1e-4;
-  double rate_rotation = 1e-3;
+  double rate_mean = 0.1;  ///< pixels at the scene's distance
+  double rate_log_scale = 1.5e-3;
+  double rate_rotation = 5e-3;
   double rate_opacity = 5e-2;
-  double rate_colour = 2.5e-3;
+  double rate_colour = 5e-3;
   double rate_pose_rotation = 0;
   double rate_pose_translation = 0;
   PoseGradientKind pose_gradient = PoseGradientKind::Full;

@@ -57,14 +57,14 @@ TileLists::TileLists(gpu::Device& device, const TileShape& shape)
   status.upload(std::vector<glsl::RenderStatus>{{}});
 }
 
-gpu::Pass<passes::project_splats>& TileLists::projection(const GaussianMap& map) {
+gpu::Pass<passes::project_splats>& TileLists::projection(const GaussianMap& map, bool listed) {
   const bool plane = map.depth_model() == DepthModel::Plane;
-  auto& pass = project_[map.sh_degree()][plane];
+  auto& pass = project_[map.sh_degree()][plane][listed];
   if (!pass)
     pass = std::make_unique<gpu::Pass<passes::project_splats>>(
         device_, gpu::kWorkgroup,
         passes::project_splats::Constants{shape_.width, shape_.height, static_cast<uint32_t>(map.sh_degree()),
-                                          plane ? 1u : 0u});
+                                          plane ? 1u : 0u, listed ? 1u : 0u});
   return *pass;
 }
 
@@ -102,22 +102,38 @@ void TileLists::record(gpu::Recorder& recorder, const GaussianMap& map,
   reserve(recorder, map, size);
   record_projection(recorder, map, camera, uncertainty_above);
   record_instances(recorder, camera, tiles_x(size) * tiles_y(size));
+  listed_ = &camera;
+  uses_ = 1;
+}
+
+void TileLists::record_again(gpu::Recorder& recorder, const GaussianMap& map,
+                             const gpu::Array<glsl::CameraState>& camera, float uncertainty_above) {
+  recorder.dispatch_indirect(projection(map, true), dispatch_args, kVisibleArgs, projection_of(map, camera),
+                             {.count = gaussians_, .uncertainty_above = uncertainty_above});
+  ++uses_;
+}
+
+passes::project_splats::Bindings TileLists::projection_of(const GaussianMap& map,
+                                                          const gpu::Array<glsl::CameraState>& camera) {
+  return {.camera = camera,
+          .means = map.means.value,
+          .log_scales = map.log_scales.value,
+          .rotations = map.rotations.value,
+          .opacity_logits = map.opacity_logits.value,
+          .sh = map.sh.value,
+          .splats = splats,
+          .tile_counts = tile_counts,
+          .visible_flags = visible_flags_,
+          .uncertainty = map.uncertainty,
+          .visible_count = visible_count,
+          .visible_ids = visible_ids,
+          .status = status};
 }
 
 void TileLists::record_projection(gpu::Recorder& recorder, const GaussianMap& map,
                                   const gpu::Array<glsl::CameraState>& camera, float uncertainty_above) {
-  auto& project = projection(map);
-  recorder.dispatch(project, project.groups(gaussians_),
-                    {.camera = camera,
-                     .means = map.means.value,
-                     .log_scales = map.log_scales.value,
-                     .rotations = map.rotations.value,
-                     .opacity_logits = map.opacity_logits.value,
-                     .sh = map.sh.value,
-                     .splats = splats,
-                     .tile_counts = tile_counts,
-                     .visible_flags = visible_flags_,
-                     .uncertainty = map.uncertainty},
+  auto& project = projection(map, false);
+  recorder.dispatch(project, project.groups(gaussians_), projection_of(map, camera),
                     {.count = gaussians_, .uncertainty_above = uncertainty_above});
   scan_.record(recorder, visible_flags_, visible_offsets_, visible_count, {map.count, gaussians_});
   scan_.record(recorder, tile_counts, instance_offsets, instance_total_, {map.count, gaussians_});
@@ -187,7 +203,10 @@ void TileLists::submit(gpu::Recorder& recorder, std::size_t count,
 
 uint32_t TileLists::settle() {
   const glsl::RenderStatus now = read_status();
-  if (now.overflow) reserve_instances(now.needed + now.needed / 4);
+  if (now.overflow) {
+    reserve_instances(now.needed + now.needed / 4);
+    forget();
+  }
   status.upload(std::vector<glsl::RenderStatus>{{.visible = now.visible, .instances = now.instances}});
   return now.completed;
 }

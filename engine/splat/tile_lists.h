@@ -47,6 +47,17 @@ class TileLists {
   void record(gpu::Recorder& recorder, const GaussianMap& map, const gpu::Array<glsl::CameraState>& camera,
               const ImageSize& size, float uncertainty_above);
 
+  /// Records the projection alone: the lists of the last record(), of the same map and image, are used again.
+  /// For a camera and Gaussians that have hardly moved since.
+  void record_again(gpu::Recorder& recorder, const GaussianMap& map,
+                    const gpu::Array<glsl::CameraState>& camera, float uncertainty_above);
+  /// Whether the lists are of this camera, and fresh enough for Gaussians that mapping moves.
+  bool serve(const gpu::Array<glsl::CameraState>& camera) const {
+    return listed_ == &camera && uses_ < kUses;
+  }
+  /// The lists are not to be used again.
+  void forget() { listed_ = nullptr; }
+
   /// Records the steps 0 to `count` - 1, each of which records one view and what is made of it, and submits
   /// them together. Where a view had more instances than there is room for, nothing was changed from its step
   /// on: then makes room, and records and submits those steps again, until all are done.
@@ -84,15 +95,22 @@ class TileLists {
   void record_projection(gpu::Recorder& recorder, const GaussianMap& map,
                          const gpu::Array<glsl::CameraState>& camera, float uncertainty_above);
   void record_instances(gpu::Recorder& recorder, const gpu::Array<glsl::CameraState>& camera, uint32_t tiles);
-  gpu::Pass<passes::project_splats>& projection(const GaussianMap& map);
+  gpu::Pass<passes::project_splats>& projection(const GaussianMap& map, bool listed);
+  passes::project_splats::Bindings projection_of(const GaussianMap& map,
+                                                 const gpu::Array<glsl::CameraState>& camera);
+
+  /// Steps of mapping on one view that share lists, at most (docs/experiments.md).
+  static constexpr int kUses = 4;
 
   gpu::Device& device_;
   TileShape shape_;
   uint32_t instance_capacity_ = 0;
   uint32_t gaussians_ = 0;
+  const gpu::Array<glsl::CameraState>* listed_ = nullptr;  ///< whose lists these are
+  int uses_ = 0;                                           ///< of the lists so far
 
-  /// Per SH degree and depth model, made when first needed.
-  std::unique_ptr<gpu::Pass<passes::project_splats>> project_[4][2];
+  /// Per SH degree, depth model, and whether the Gaussians are those of the lists; made when first needed.
+  std::unique_ptr<gpu::Pass<passes::project_splats>> project_[4][2][2];
   gpu::Pass<passes::compact_visible> compact_;
   gpu::Pass<passes::gather_tile_counts> gather_;
   gpu::Pass<passes::emit_instances> emit_;

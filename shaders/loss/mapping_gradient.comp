@@ -1,6 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "mapping_gradient.h"
+#include "intensity.glsl"
 #include "ssim.glsl"
 #include "pixel_upstream.glsl"
 
@@ -15,7 +16,7 @@ void main() {
   const int first = int(i / params.width) * STRIP;
 
   SsimSlopes blurred[STRIP];
-  [[unroll]] for (int o = 0; o < STRIP; ++o) blurred[o] = SsimSlopes(vec3(0), vec3(0), vec3(0));
+  [[unroll]] for (int o = 0; o < STRIP; ++o) blurred[o] = SsimSlopes(0.0, 0.0, 0.0);
   [[unroll]] for (int p = 0; p < STRIP + 2 * WINDOW_RADIUS; ++p) {
     const int row = first + p - WINDOW_RADIUS;
     const bool inside = row >= 0 && row < int(params.height);
@@ -45,9 +46,9 @@ void main() {
     float g_depth = 0;
     if (sensor > 0) {
       const vec3 difference = image.rgb - target;
-      g.colour = params.w_colour * per_channel * sign(difference) -
-                 params.w_ssim * per_channel *
-                     (blurred[o].x + 2 * image.rgb * blurred[o].xx + target * blurred[o].xy);
+      const float similarity = blurred[o].x + 2 * intensity_of(image.rgb) * blurred[o].xx +
+                               intensity_of(target) * blurred[o].xy;
+      g.colour = params.w_colour * per_channel * sign(difference) - params.w_ssim * per_valid * similarity * INTENSITY;
       sums.colour += abs(difference.r) + abs(difference.g) + abs(difference.b);
       g_depth += params.w_depth * per_valid * sign(depth - sensor);
       g.uncertainty = params.w_variance * per_valid;

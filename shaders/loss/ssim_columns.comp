@@ -12,7 +12,7 @@ void main() {
   const int first = int(i / params.width) * STRIP;
 
   SsimMoments m[STRIP];
-  [[unroll]] for (int o = 0; o < STRIP; ++o) m[o] = SsimMoments(vec3(0), vec3(0), vec3(0), vec3(0));
+  [[unroll]] for (int o = 0; o < STRIP; ++o) m[o] = SsimMoments(0.0, 0.0, 0.0, 0.0);
   [[unroll]] for (int p = 0; p < STRIP + 2 * WINDOW_RADIUS; ++p) {
     const int row = first + p - WINDOW_RADIUS;
     const bool inside = row >= 0 && row < int(params.height);
@@ -30,11 +30,11 @@ void main() {
   [[unroll]] for (int o = 0; o < STRIP; ++o) {
     if (first + o >= int(params.height)) continue;
     const SsimMoments s = m[o];
-    const vec3 a1 = 2 * s.x * s.y + SSIM_C1, a2 = 2 * (s.xy - s.x * s.y) + SSIM_C2;
-    const vec3 b1 = s.x * s.x + s.y * s.y + SSIM_C1;
-    const vec3 b2 = s.squares - s.x * s.x - s.y * s.y + SSIM_C2;
-    const vec3 inverse = 1 / (b1 * b2);
-    const vec3 ssim = a1 * a2 * inverse;
+    const float a1 = 2 * s.x * s.y + SSIM_C1, a2 = 2 * (s.xy - s.x * s.y) + SSIM_C2;
+    const float b1 = s.x * s.x + s.y * s.y + SSIM_C1;
+    const float b2 = s.squares - s.x * s.x - s.y * s.y + SSIM_C2;
+    const float inverse = 1 / (b1 * b2);
+    const float ssim = a1 * a2 * inverse;
     SsimSlopes g;
     g.x = 2 * s.y * (a2 - a1) * inverse - 2 * s.x * ssim * (1 / b1 - 1 / b2);
     g.xx = -ssim / b2;
@@ -42,7 +42,7 @@ void main() {
     const uint at = uint(first + o) * params.width + column;
     const float takes_part = sensor_depth[at] > 0 ? 1.0 : 0.0;
     slopes[at] = SsimSlopes(takes_part * g.x, takes_part * g.xx, takes_part * g.xy);
-    total += takes_part * (ssim.r + ssim.g + ssim.b);
+    total += takes_part * ssim;
   }
   ssim_partials[i] = total;
 }

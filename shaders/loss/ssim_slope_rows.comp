@@ -12,7 +12,7 @@ void main() {
   const uint row = strip / strips * params.width;
 
   SsimSlopes g[STRIP];
-  [[unroll]] for (int o = 0; o < STRIP; ++o) g[o] = SsimSlopes(vec3(0), vec3(0), vec3(0));
+  [[unroll]] for (int o = 0; o < STRIP; ++o) g[o] = SsimSlopes(0.0, 0.0, 0.0);
   [[unroll]] for (int p = 0; p < STRIP + 2 * WINDOW_RADIUS; ++p) {
     const int column = first + p - WINDOW_RADIUS;
     const bool inside = column >= 0 && column < int(params.width);

@@ -10,25 +10,25 @@ SHARED_TYPES_BEGIN
 SHARED_CONST uint SSIM_STRIP = 8;
 SHARED_CONST uint SUM_STRIP = 16;
 
-/// Horizontally blurred moments of the rendered (x) and the sensor's (y) colour, for SSIM.
+/// Horizontally blurred moments of the rendered (x) and the sensor's (y) intensity, for SSIM.
 struct SsimMoments {
-  vec3 x;
-  vec3 y;
-  vec3 squares;   // xx + yy: SSIM needs no more of them
-  vec3 xy;
+  float x;
+  float y;
+  float squares;   // xx + yy: SSIM needs no more of them
+  float xy;
 };
 
 /// Derivatives of SSIM at a pixel with respect to the blurred moments x, xx and xy.
 struct SsimSlopes {
-  vec3 x;
-  vec3 xx;
-  vec3 xy;
+  float x;
+  float xx;
+  float xy;
 };
 
 /// Sums over pixels of the terms of the mapping loss (paper eq. 18), before their weights and means.
 struct LossSums {
   float colour;   // sum over channels of |I - I'|
-  float ssim;     // sum over channels of SSIM
+  float ssim;     // of the intensities
   float depth;
   float align;
   float variance;

@@ -6,12 +6,19 @@
 #include "tiles.glsl"
 #include "sh.glsl"
 
-// One invocation per Gaussian of the map: projects it (docs/method.md, "Forward") and counts the tiles that it touches.
+// One invocation per Gaussian of the map, or of the lists at hand: projects it (docs/method.md, "Forward") and counts the tiles that it touches.
 // A Gaussian that is culled gets opacity 0 and no tiles. Branches do not save work on every device, so everything is
 // computed for a point in front of the camera and thrown away where the Gaussian is not.
 void main() {
-  const uint i = gl_GlobalInvocationID.x;
-  if (i >= params.count) return;
+  uint i = gl_GlobalInvocationID.x;
+  if (LISTED == 1) {
+    // emit_instances counts the views that get lists of their own.
+    if (i == 0 && status[0].overflow == 0) status[0].completed += 1;
+    if (i >= visible_count[0]) return;
+    i = visible_ids[i];
+  } else if (i >= params.count) {
+    return;
+  }
   const CameraState c = camera[0];
   const vec3 mean = means[i];
   vec3 x_c = to_camera(c, mean);
@@ -38,6 +45,10 @@ void main() {
 
   if (uncertainty[i] > params.uncertainty_above) s.opacity = 0;
 
+  if (LISTED == 1) {
+    splats[i] = s;
+    return;
+  }
   const Footprint f = footprint_of(c, s);
   uint tiles = 0;
   for (uint row = f.rows.x; row < f.rows.y; ++row) {

@@ -31,6 +31,16 @@ std::vector<double>& depth_image(ImageGradients& gradients, DepthKind kind) {
   return kind == DepthKind::alpha ? gradients.depth : gradients.depth_normalised;
 }
 
+/// How much red, green and blue count in the intensity (Rec. 601).
+constexpr double kIntensity[] = {0.299, 0.587, 0.114};
+
+template <typename Colours>
+std::vector<double> intensities(const Colours& colour) {
+  std::vector<double> values(colour.size() / 3);
+  for (std::size_t i = 0; i < colour.size(); ++i) values[i / 3] += kIntensity[i % 3] * colour[i];
+  return values;
+}
+
 /// Mean over the masked pixels of the mean over channels of |I - observed|; adds `weight` times its
 /// derivative.
 double colour_term(const Images& rendered, const Observation& observed, const std::vector<uint8_t>& mask,
@@ -146,11 +156,11 @@ MappingLoss mapping_loss(const Images& rendered, const Observation& observed, co
   const std::vector<uint8_t> valid = valid_depth_mask(observed);
 
   loss.colour = colour_term(rendered, observed, valid, settings.colour, loss.images);
-  const std::vector<double> target(observed.colour.begin(), observed.colour.end());
-  const Ssim similarity = ssim(rendered.width, rendered.height, rendered.colour, target, valid);
+  const Ssim similarity = ssim(rendered.width, rendered.height, intensities(rendered.colour),
+                               intensities(observed.colour), valid, 1);
   loss.ssim = 1 - similarity.value;
-  for (std::size_t i = 0; i < target.size(); ++i)
-    loss.images.colour[i] -= settings.ssim * similarity.gradient[i];
+  for (std::size_t i = 0; i < rendered.colour.size(); ++i)
+    loss.images.colour[i] -= settings.ssim * similarity.gradient[i / 3] * kIntensity[i % 3];
   loss.depth = depth_term(rendered, observed, valid, settings.depth_kind, settings.depth, loss.images);
   loss.align = align_term(rendered, settings.depth_kind, settings.align, loss.images);
   loss.isotropy =

@@ -36,7 +36,7 @@ struct MappingLossSettings {
 struct MappingLoss {
   double total = 0;
   double colour = 0;    ///< mean |I - observed| over valid sensor pixels and channels
-  double ssim = 0;      ///< 1 - SSIM of the valid sensor pixels
+  double ssim = 0;      ///< 1 - SSIM of the intensities of the valid sensor pixels
   double depth = 0;     ///< mean |depth - sensor| over valid sensor pixels, metres
   double align = 0;     ///< mean |depth - D_median| over pixels which have a median, metres
   double isotropy = 0;  ///< mean max(s_max / s_min, epsilon) - epsilon over visible Gaussians
@@ -83,10 +83,10 @@ struct Ssim {
   std::vector<double> gradient;  ///< d value / d first, layout as the image
 };
 
-/// SSIM of two RGB images (row-major, 3 a pixel, in [0, 1]): per channel, 11 x 11 Gaussian window of
+/// SSIM of two images (row-major, `channels` a pixel, in [0, 1]): per channel, 11 x 11 Gaussian window of
 /// sigma 1.5, zero padding, C1 = 0.01^2, C2 = 0.03^2, averaged over channels and the pixels of `mask`; the
 /// others are as if outside of the image. An empty mask: all pixels. 1 over none.
 Ssim ssim(int width, int height, std::span<const double> first, std::span<const double> second,
-          std::span<const uint8_t> mask = {});
+          std::span<const uint8_t> mask = {}, int channels = 3);
 
 }  // namespace surefield::reference

@@ -52,9 +52,9 @@ Plane product(const Plane& a, const Plane& b) {
 }
 
 /// A channel of an image, 0 where `mask` is.
-Plane channel_of(std::span<const double> image, int channel, const Plane& mask) {
-  Plane plane(image.size() / 3);
-  for (std::size_t i = 0; i < plane.size(); ++i) plane[i] = mask[i] * image[i * 3 + channel];
+Plane channel_of(std::span<const double> image, int channel, int channels, const Plane& mask) {
+  Plane plane(mask.size());
+  for (std::size_t i = 0; i < plane.size(); ++i) plane[i] = mask[i] * image[i * channels + channel];
   return plane;
 }
 
@@ -93,26 +93,28 @@ double ssim_sum(const Plane& first, const Plane& second, const Plane& mask, int 
 }  // namespace
 
 Ssim ssim(int width, int height, std::span<const double> first, std::span<const double> second,
-          std::span<const uint8_t> mask) {
-  if (first.size() != static_cast<std::size_t>(width) * height * 3 || second.size() != first.size()) {
+          std::span<const uint8_t> mask, int channels) {
+  if (first.size() != static_cast<std::size_t>(width) * height * channels || second.size() != first.size()) {
     throw std::invalid_argument("ssim: image sizes differ");
   }
   Ssim result;
   result.gradient.resize(first.size());
-  Plane takes_part(first.size() / 3, 1);
+  Plane takes_part(static_cast<std::size_t>(width) * height, 1);
   for (std::size_t i = 0; i < mask.size(); ++i) takes_part[i] = mask[i];
   double count = 0;
-  for (double part : takes_part) count += 3 * part;
+  for (double part : takes_part) count += channels * part;
   if (count == 0) {
     result.value = 1;
     return result;
   }
-  for (int channel = 0; channel < 3; ++channel) {
+  for (int channel = 0; channel < channels; ++channel) {
     Plane gradient;
-    result.value += ssim_sum(channel_of(first, channel, takes_part), channel_of(second, channel, takes_part),
-                             takes_part, width, height, gradient) /
-                    count;
-    for (std::size_t i = 0; i < gradient.size(); ++i) result.gradient[i * 3 + channel] = gradient[i] / count;
+    result.value +=
+        ssim_sum(channel_of(first, channel, channels, takes_part),
+                 channel_of(second, channel, channels, takes_part), takes_part, width, height, gradient) /
+        count;
+    for (std::size_t i = 0; i < gradient.size(); ++i)
+      result.gradient[i * channels + channel] = gradient[i] / count;
   }
   return result;
 }

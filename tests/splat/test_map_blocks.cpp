@@ -181,7 +181,7 @@ TEST_CASE(
     const SensorFrame frame = testing::frame_of(device, rasteriser, map, camera);
     CameraVariable variable(device, camera);
     gpu::Recorder recorder(device);
-    mapper.record_step(recorder, rasteriser, map, frame, variable, false, {}, 1);
+    mapper.record_step(recorder, rasteriser, map, {frame, variable}, {}, 0.003);
     recorder.submit();
     if (length == 1) {
       small = device.memory_in_use() - before;

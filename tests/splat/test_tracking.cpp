@@ -1,5 +1,7 @@
 #include <doctest/doctest.h>
 
+#include <functional>
+
 #include "engine/gpu/recorder.h"
 #include "engine/splat/adam_tracker.h"
 #include "engine/splat/gauss_newton_tracker.h"
@@ -83,6 +85,62 @@ TEST_CASE("Gauss-Newton recovers a pose from near and far, with either depth") {
     }
 }
 
+TEST_CASE("a frame near the last one is aligned to the last render, until the map changes") {
+  Track t;
+  const GaussianCloud cloud = wall(160, 120, 90);
+  GaussianCloud shifted = cloud;
+  for (Eigen::Vector3f& mean : shifted.means) mean.x() += 0.006f;
+  t.map.assign(cloud);
+  const Camera here = wall_camera(), near = moved(0.02, 0.02), far = moved(0.15, 0.01);
+  const SensorFrame frame = frame_of(t.device, t.rasteriser, t.map, here);
+  const SensorFrame near_frame = frame_of(t.device, t.rasteriser, t.map, near);
+  const SensorFrame far_frame = frame_of(t.device, t.rasteriser, t.map, far);
+  // One alignment a frame. What it is aligned to shows in the pose, since the map is shifted unnoticed.
+  const TrackingSettings settings{.minimum_opacity = 0.9, .gauss_newton = {.renders = 1}};
+  const auto error_after = [&](const SensorFrame& next, const Camera& start, const Camera& truth,
+                               const auto& before) {
+    GaussNewtonTracker tracker(t.device);
+    t.map.assign(cloud);
+    CHECK(error_of(t.run(tracker, frame, here, settings), here).metres < 1e-3);
+    t.map.assign(shifted);
+    before(tracker);
+    const TrackingResult result = t.run(tracker, next, start, settings);
+    CHECK(result.iterations == 1);
+    return error_of(result, truth).metres;
+  };
+  const auto nothing = [](GaussNewtonTracker&) {};
+  CHECK(error_after(near_frame, here, near, nothing) < 1e-3);
+  CHECK(error_after(near_frame, near, near, nothing) < 1e-3);
+  CHECK(error_after(near_frame, near, near, [](GaussNewtonTracker& tracker) { tracker.forget_render(); }) >
+        4e-3);
+  CHECK(error_after(far_frame, far, far, nothing) > 4e-3);
+}
+
+TEST_CASE("the engine renders a map that has changed again") {
+  const GaussianCloud cloud = wall(160, 120, 90);
+  GaussianCloud shifted = cloud;
+  for (Eigen::Vector3f& mean : shifted.means) mean.x() += 0.006f;
+  const Camera here = wall_camera();
+  const TrackingSettings settings{.minimum_opacity = 0.9, .gauss_newton = {.renders = 1}};
+  const auto change_after = [&](const std::function<void(SplatEngine&, FrameHandle)>& change) {
+    SplatEngine engine({.device = testing::device_options().selector});
+    engine.assign(cloud);
+    const FrameHandle frame = engine.load(Seen(engine.render(here)).view());
+    engine.track(frame, here, settings);
+    const Pose again = engine.track(frame, here, settings).world_to_camera;
+    change(engine, frame);
+    const Pose after = engine.track(frame, here, settings).world_to_camera;
+    return (after * again.inverse()).translation().norm();
+  };
+  CHECK(change_after([](SplatEngine&, FrameHandle) {}) < 2e-4);
+  CHECK(change_after([&](SplatEngine& engine, FrameHandle) { engine.assign(shifted); }) > 1e-3);
+  CHECK(change_after([&](SplatEngine& engine, FrameHandle) { engine.insert(shifted); }) > 1e-3);
+  CHECK(change_after([&](SplatEngine& engine, FrameHandle frame) {
+          std::vector<MappingView> views{{frame, moved(0.01, 0.01)}};
+          engine.optimise(views, std::vector<int>(10, 0), {}, 0.006);
+        }) > 1e-3);
+}
+
 TEST_CASE("a keyframe's own images pull the pose to where they fit, where the map is off") {
   Track t;
   t.map.assign(wall(160, 120, 90));
@@ -128,8 +186,8 @@ TEST_CASE("the engine aligns frames to the keyframes that it is given, also when
     std::vector<TrackingReference> keyframes;
     for (const double metres : {0.02, -0.02, 0.03, 0.01, 0.015})
       keyframes.push_back({load(at(metres, 0.01)), at(metres, 0.01)});
-    engine.assign(shifted);
     const auto error = [&](std::span<const TrackingReference> references) {
+      engine.assign(shifted);  // so that the map is rendered from the start again
       return error_of(engine.track(frame, here, settings, references), here).metres;
     };
     const double alone = error({});

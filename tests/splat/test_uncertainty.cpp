@@ -96,7 +96,7 @@ struct Stand {
   std::vector<MappingView> views() const { return {{frame, wall_camera(), false}}; }
   void optimise(int steps, const MappingSettings& settings) {
     std::vector<MappingView> all = views();
-    engine.optimise(all, std::vector<int>(static_cast<std::size_t>(steps), 0), settings, 2);
+    engine.optimise(all, std::vector<int>(static_cast<std::size_t>(steps), 0), settings, 0.006);
   }
 };
 

@@ -107,7 +107,7 @@ void SceneSteps::render_and_go_back(Outputs outputs) {
 
 void SceneSteps::map() {
   rasteriser_.lists.submit(recorder_, kBatch, [&](std::size_t) {
-    mapper_.record_step(recorder_, rasteriser_, map_, frame_, camera_, true, still_mapping(), 1);
+    mapper_.record_step(recorder_, rasteriser_, map_, {frame_, camera_, true}, still_mapping(), 1);
   });
 }
 
