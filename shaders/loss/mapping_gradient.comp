@@ -5,6 +5,9 @@
 #include "ssim.glsl"
 #include "pixel_upstream.glsl"
 
+// The blurred slopes of the invocation's pixels: where a loop that is not unrolled can find them.
+shared SsimSlopes blurred_slopes[SSIM_STRIP * gl_WorkGroupSize.x];
+
 // One invocation per strip of STRIP pixels of a column, as in ssim_columns: finishes the blur of SSIM's slopes and adds
 // the L1 terms. A pixel without sensor depth has no part in them, so that
 // no Gaussian grows where nothing was measured; one without a median none in L_align.
@@ -30,11 +33,15 @@ void main() {
     }
   }
 
+  [[unroll]] for (int o = 0; o < STRIP; ++o)
+    blurred_slopes[uint(o) * gl_WorkGroupSize.x + gl_LocalInvocationID.x] = blurred[o];
+
   const float per_valid = 1 / max(params.valid_pixels, 1.0), per_channel = per_valid / 3;
   const float per_median = 1 / max(float(median_count[0]), 1.0);
   LossSums sums = LossSums(0.0, ssim_partials[i], 0.0, 0.0, 0.0, 0.0);
-  [[unroll]] for (int o = 0; o < STRIP; ++o) {
-    if (first + o >= int(params.height)) continue;
+  // Unrolled, this would take compilers seconds and save nothing.
+  [[dont_unroll]] for (int o = 0; o < min(STRIP, int(params.height) - first); ++o) {
+    const SsimSlopes slopes = blurred_slopes[uint(o) * gl_WorkGroupSize.x + gl_LocalInvocationID.x];
     const uint at = uint(first + o) * params.width + column;
     const vec4 image = colour_opacity[at];
     const vec4 geo = geometry[at];
@@ -46,8 +53,7 @@ void main() {
     float g_depth = 0;
     if (sensor > 0) {
       const vec3 difference = image.rgb - target;
-      const float similarity = blurred[o].x + 2 * intensity_of(image.rgb) * blurred[o].xx +
-                               intensity_of(target) * blurred[o].xy;
+      const float similarity = slopes.x + 2 * intensity_of(image.rgb) * slopes.xx + intensity_of(target) * slopes.xy;
       g.colour = params.w_colour * per_channel * sign(difference) - params.w_ssim * per_valid * similarity * INTENSITY;
       sums.colour += abs(difference.r) + abs(difference.g) + abs(difference.b);
       g_depth += params.w_depth * per_valid * sign(depth - sensor);

@@ -5,7 +5,7 @@
 #define PASS_PARAMS(P) P(uint, count) /* of partial sums of a source */ P(uint, sources)
 #define PASS_BINDINGS(READ, WRITE, UPDATE) \
   READ(0, RenderStatus, status)            \
-  READ(1, AlignSums, partial_sums)         \
+  READ(1, uint, partial_sums) /* AlignSums */ \
   UPDATE(2, AlignState, state)             \
   UPDATE(3, CameraState, camera)
 #include "declare_pass.h"

@@ -24,6 +24,12 @@ struct AlignSums {
   float pixels_depth;
 };
 
+/// The numbers of AlignSums, and where some of them lie.
+SHARED_CONST uint ALIGN_SLOPE = 21;
+SHARED_CONST uint ALIGN_SQUARES = 27;
+SHARED_CONST uint ALIGN_PIXELS = 29;
+SHARED_CONST uint ALIGN_VALUES = 31;
+
 /// What a frame is aligned to: source 0 is the render, the others are the images of keyframes.
 SHARED_CONST uint ALIGN_REFERENCES = 4;
 SHARED_CONST uint ALIGN_SOURCES = 1 + ALIGN_REFERENCES;

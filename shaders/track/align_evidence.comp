@@ -7,8 +7,7 @@
 void main() {
   const uint i = gl_LocalInvocationID.x;
   for (uint part = 0; part < params.parts; ++part) {
-    const AlignSums sum = total(i, part, params.count);
-    if (i == 0) evidence[part] = sum;
-    barrier();
+    const float sum = total(part, params.count);
+    if (i < ALIGN_VALUES) evidence[part * ALIGN_VALUES + i] = floatBitsToUint(sum);
   }
 }

@@ -10,25 +10,27 @@
 const float LEAST_COLOUR = 1e-8, LEAST_DEPTH = 0.01;
 const float DAMPING = 1e-4;          // of the diagonal
 
+shared float values[gl_WorkGroupSize.x];   // AlignSums of a source, at last of all
+
 /// Solves the normal equations by Cholesky's decomposition; false where they leave a direction open.
-bool solve(AlignSums s, out float x[6]) {
+bool solve(out float x[6]) {
   float L[6][6];
   bool solvable = true;
   [[unroll]] for (uint j = 0; j < 6; ++j) {
-    const float diagonal = s.normal[triangle_at(j, j)];
+    const float diagonal = values[triangle_at(j, j)];
     float pivot = diagonal * (1 + DAMPING);
     [[unroll]] for (uint n = 0; n < 6; ++n) pivot -= n < j ? L[j][n] * L[j][n] : 0.0;
     solvable = solvable && pivot > 1e-7 * diagonal;
     L[j][j] = sqrt(max(pivot, 1e-30));
     [[unroll]] for (uint i = 0; i < 6; ++i) {
       if (i <= j) continue;  // decided when the loops are unrolled, as below
-      float sum = s.normal[triangle_at(j, i)];
+      float sum = values[triangle_at(j, i)];
       [[unroll]] for (uint n = 0; n < 6; ++n) sum -= n < j ? L[i][n] * L[j][n] : 0.0;
       L[i][j] = sum / L[j][j];
     }
   }
   [[unroll]] for (uint i = 0; i < 6; ++i) {
-    float sum = -s.slope[i];
+    float sum = -values[ALIGN_SLOPE + i];
     [[unroll]] for (uint n = 0; n < 6; ++n) sum -= n < i ? L[i][n] * x[n] : 0.0;
     x[i] = sum / L[i][i];
   }
@@ -48,25 +50,29 @@ float variance_of(float squares, float pixels, float least, float before) {
   return pixels > 0 ? max(squares / pixels, least) : before;
 }
 
-AlignScales scales_of(AlignSums s, AlignScales before) {
-  return AlignScales(variance_of(s.squares_colour, s.pixels_colour, LEAST_COLOUR, before.colour),
-                     variance_of(s.squares_depth, s.pixels_depth, LEAST_DEPTH, before.depth));
+AlignScales scales_of_source(AlignScales before) {
+  return AlignScales(variance_of(values[ALIGN_SQUARES], values[ALIGN_PIXELS], LEAST_COLOUR, before.colour),
+                     variance_of(values[ALIGN_SQUARES + 1], values[ALIGN_PIXELS + 1], LEAST_DEPTH, before.depth));
 }
 
 // One workgroup: adds up the partial sums in a fixed order; then one invocation solves and moves the camera.
 void main() {
   const uint i = gl_LocalInvocationID.x;
   const bool acts = i == 0 && status[0].overflow == 0;
-  AlignSums s = total(i, 0, params.count);
-  if (acts) state[0].scales[0] = scales_of(s, state[0].scales[0]);
-  for (uint source = 1; source < params.sources; ++source) {
-    const AlignSums more = total(i, source, params.count);
-    if (acts) state[0].scales[source] = scales_of(more, state[0].scales[source]);
-    s = add(s, more);
+  float sum = 0;
+  for (uint source = 0; source < params.sources; ++source) {
+    const float more = total(source, params.count);
+    sum += more;
+    values[i] = more;
+    barrier();
+    if (acts) state[0].scales[source] = scales_of_source(state[0].scales[source]);
+    barrier();
   }
+  values[i] = sum;
+  barrier();
   if (!acts) return;
   float x[6];
-  if (!solve(s, x)) return;
+  if (!solve(x)) return;
   CameraState motion = state[0].base;
   motion.rotation0 = state[0].rotation0;
   motion.rotation1 = state[0].rotation1;

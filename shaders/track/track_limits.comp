@@ -35,6 +35,8 @@ float median_of(uint first) {
 
 // One workgroup of a size that divides RESIDUAL_BINS.
 void main() {
-  const vec2 medians = vec2(median_of(0), median_of(RESIDUAL_BINS));
-  if (gl_LocalInvocationID.x == 0) limits[0] = params.outlier_factor * medians;
+  [[dont_unroll]] for (uint which = 0; which < 2; ++which) {
+    const float median = median_of(which * RESIDUAL_BINS);
+    if (gl_LocalInvocationID.x == 0) limits[0][which] = params.outlier_factor * median;
+  }
 }

@@ -302,7 +302,8 @@ TEST_CASE("a Gauss-Newton step adds up its sources and scales the residuals of e
   const auto camera = on_device("camera", std::vector{camera_state(p.intrinsics)});
   const auto sums = on_device("sums", partial);
   gpu::Recorder recorder(device);
-  recorder.dispatch(pass, 1, {.status = status, .partial_sums = sums, .state = state, .camera = camera},
+  recorder.dispatch(pass, 1,
+                    {.status = status, .partial_sums = gpu::as_words(sums), .state = state, .camera = camera},
                     {.count = kCount, .sources = 3});
   recorder.submit();
   CHECK((pose_of(camera.download(1)[0]).matrix() - small_motion(xi).matrix()).norm() < 1e-5);
@@ -345,9 +346,10 @@ TEST_CASE(
       const auto camera = on_device("camera", std::vector{before.base});
       const auto device_sums = on_device("sums", sums);
       gpu::Recorder recorder(device);
-      recorder.dispatch(pass, 1,
-                        {.status = status, .partial_sums = device_sums, .state = state, .camera = camera},
-                        {.count = count, .sources = 1});
+      recorder.dispatch(
+          pass, 1,
+          {.status = status, .partial_sums = gpu::as_words(device_sums), .state = state, .camera = camera},
+          {.count = count, .sources = 1});
       recorder.submit();
       const glsl::AlignState after = state.download(1)[0];
       CHECK(after.scales[0].colour == doctest::Approx(sums[0].pixels_colour > 0 ? 0.01 : kVarianceColour));

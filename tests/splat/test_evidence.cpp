@@ -143,7 +143,7 @@ TEST_CASE("the evidence of each part is the sum of its partial sums") {
     const auto sums = on_device("sums", partial);
     const gpu::Array<glsl::AlignSums> evidence(device, "evidence", kParts);
     gpu::Recorder recorder(device);
-    recorder.dispatch(pass, 1, {.partial_sums = sums, .evidence = evidence},
+    recorder.dispatch(pass, 1, {.partial_sums = gpu::as_words(sums), .evidence = gpu::as_words(evidence)},
                       {.count = count, .parts = kParts});
     recorder.submit();
     const auto got = evidence.download(kParts);
