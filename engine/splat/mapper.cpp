@@ -78,7 +78,7 @@ void Mapper::record_loss(gpu::Recorder& recorder, Rasteriser& rasteriser, const 
                          const MappingSettings& settings, bool same_lists) {
   View view{frame.size, camera.camera, frame.depth};
   view.same_lists = same_lists;
-  rasteriser.record_forward(recorder, map, view, Outputs::All);
+  rasteriser.record_forward(recorder, map, view, Outputs::Geometry);
   record_ssim(recorder, rasteriser, frame, camera.gains);
   const auto [width, height] = frame.size;
   const uint32_t column_strips = strips(height) * width;

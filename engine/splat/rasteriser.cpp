@@ -13,8 +13,12 @@ Eigen::Vector3d to_eigen(const glsl::vec3& v) {
   return {v.x, v.y, v.z};
 }
 
-passes::blend_forward::Constants forward_constants(const TileShape& s, bool geometry) {
-  return {.TILE_W = s.width, .TILE_H = s.height, .LANES = s.lanes, .WITH_GEOMETRY = geometry ? 1u : 0u};
+passes::blend_forward::Constants forward_constants(const TileShape& s, Outputs outputs) {
+  return {.TILE_W = s.width,
+          .TILE_H = s.height,
+          .LANES = s.lanes,
+          .WITH_GEOMETRY = outputs == Outputs::ColourDepth ? 0u : 1u,
+          .WITH_DOMINATORS = outputs == Outputs::All ? 1u : 0u};
 }
 
 }  // namespace
@@ -62,8 +66,9 @@ Rasteriser::Rasteriser(gpu::Device& device, const TileShape& shape)
       sh_gradients(device, "SH gradients"),
       pose_gradient(device, "pose gradient"),
       device_(device),
-      forward_(device, shape.lanes, forward_constants(shape, false)),
-      forward_all_(device, shape.lanes, forward_constants(shape, true)),
+      forward_(device, shape.lanes, forward_constants(shape, Outputs::ColourDepth)),
+      forward_geometry_(device, shape.lanes, forward_constants(shape, Outputs::Geometry)),
+      forward_all_(device, shape.lanes, forward_constants(shape, Outputs::All)),
       backward_(device, shape.lanes, {.TILE_W = shape.width, .TILE_H = shape.height, .LANES = shape.lanes}),
       reduce_pose_(device, kReduceWorkgroup),
       footprint_gradients_(device, "footprint gradients"),
@@ -111,8 +116,10 @@ void Rasteriser::record_blending(gpu::Recorder& recorder, const View& view, Outp
   recorder.reserve(colour_opacity, view.size.pixels());
   recorder.reserve(geometry, view.size.pixels());
   recorder.reserve(dominators, view.size.pixels());
-  recorder.dispatch(outputs == Outputs::All ? forward_all_ : forward_, lists.tiles_x(view.size),
-                    lists.tiles_y(view.size),
+  const auto& pass = outputs == Outputs::All        ? forward_all_
+                     : outputs == Outputs::Geometry ? forward_geometry_
+                                                    : forward_;
+  recorder.dispatch(pass, lists.tiles_x(view.size), lists.tiles_y(view.size),
                     {.camera = view.camera,
                      .splats = lists.splats,
                      .tile_gaussians = lists.tile_gaussians,
@@ -177,8 +184,8 @@ void Rasteriser::record_backward_pose(gpu::Recorder& recorder, const GaussianMap
   const uint32_t tiles = lists.tiles_x(view.size) * lists.tiles_y(view.size);
   recorder.reserve(pose_partials_, tiles);
   BackwardPasses& made = backward_passes(map, kind);
-  recorder.dispatch(outputs == Outputs::All ? made.blend_pose_all : made.blend_pose, lists.tiles_x(view.size),
-                    lists.tiles_y(view.size),
+  recorder.dispatch(outputs == Outputs::ColourDepth ? made.blend_pose : made.blend_pose_all,
+                    lists.tiles_x(view.size), lists.tiles_y(view.size),
                     {.camera = view.camera,
                      .splats = lists.splats,
                      .tile_gaussians = lists.tile_gaussians,

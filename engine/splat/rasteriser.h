@@ -39,8 +39,9 @@ struct IsotropyTerm {
   float epsilon = 1;
 };
 
-/// Which outputs a forward pass computes: colour, opacity and D_alpha always.
-enum class Outputs { ColourDepth, All };
+/// Which outputs a forward pass computes: colour, opacity and D_alpha always; with Geometry the median depth
+/// and the uncertainty too; All: also the dominators and their weights.
+enum class Outputs { ColourDepth, Geometry, All };
 
 /// The differentiable renderer (paper sections 3.1 and 3.2): tile lists, blending forward, and backward to
 /// every parameter or to the pose alone. Everything is recorded; nothing is read back.
@@ -56,8 +57,8 @@ class Rasteriser {
   /// have changed.
   void record_blending(gpu::Recorder& recorder, const View& view, Outputs outputs);
 
-  /// After record_forward() of the same view with Outputs::All, and with pixel_upstream filled: gradients of
-  /// every visible Gaussian and of the pose. `isotropy` adds that of w L_iso (paper eq. 17).
+  /// After record_forward() of the same view with Outputs::Geometry, and with pixel_upstream filled:
+  /// gradients of every visible Gaussian and of the pose. `isotropy` adds that of w L_iso (paper eq. 17).
   void record_backward(gpu::Recorder& recorder, GaussianMap& map, const View& view, PoseGradientKind kind,
                        const IsotropyTerm& isotropy);
 
@@ -91,6 +92,7 @@ class Rasteriser {
 
   gpu::Device& device_;
   gpu::Pass<passes::blend_forward> forward_;
+  gpu::Pass<passes::blend_forward> forward_geometry_;
   gpu::Pass<passes::blend_forward> forward_all_;
   gpu::Pass<passes::blend_backward> backward_;
   gpu::Pass<passes::reduce_pose> reduce_pose_;

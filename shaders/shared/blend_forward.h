@@ -4,7 +4,8 @@
 #define PASS blend_forward
 #define PASS_CONSTANTS(C)                         \
   C(1, TILE_W, 8) C(2, TILE_H, 8) C(3, LANES, 8)  \
-  C(4, WITH_GEOMETRY, 1) /* also median depth, uncertainty and dominator */
+  C(4, WITH_GEOMETRY, 1) /* also median depth and uncertainty */ \
+  C(5, WITH_DOMINATORS, 1) /* also the Gaussian of the largest weight */
 #define PASS_PARAMS(P) P(vec3, background)
 #define PASS_BINDINGS(READ, WRITE, UPDATE)                          \
   READ(0, CameraState, camera)                                      \

@@ -38,7 +38,7 @@ void main() {
     for (uint group = 0; group < LANES; group += GROUP) {
       [[unroll]] for (uint member = 0; member < GROUP; ++member) {
         const Stamp stamp = stamp_from(my, group + member);
-        const uint id = WITH_GEOMETRY == 1 ? subgroupShuffle(my_id, group + member) : 0;
+        const uint id = WITH_DOMINATORS == 1 ? subgroupShuffle(my_id, group + member) : 0;
         const vec2 d = origin - stamp.centre;
         [[unroll]] for (uint column = 0; column < COLUMNS; ++column) {
           const float dx = d.x + float(column * LANES);
@@ -58,6 +58,8 @@ void main() {
               median[k] = before >= 0.5 && transmittance[k] < 0.5 ? z : median[k];
               const float off = z - sensor[k];
               uncertainty[k] += l.weight * off * off;
+            }
+            if (WITH_DOMINATORS == 1) {
               dominator[k] = l.weight > best[k] ? id : dominator[k];
               best[k] = max(best[k], l.weight);
             }
@@ -76,6 +78,6 @@ void main() {
     const uint at = pixel.y * c.width + pixel.x;
     colour_opacity[at] = vec4(colour[k] + (1 - opacity[k]) * params.background, opacity[k]);
     geometry[at] = vec4(depth[k], median[k], sensor[k] > 0 ? uncertainty[k] : 0.0, best[k]);
-    if (WITH_GEOMETRY == 1) dominators[at] = dominator[k];
+    if (WITH_DOMINATORS == 1) dominators[at] = dominator[k];
   }
 }
