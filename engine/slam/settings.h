@@ -57,7 +57,7 @@ struct SlamSettings {
   double depth_max = 0;
   double map_device_mb = 2048;
   int first_iterations = 50;
-  int mapping_iterations = 20;
+  int mapping_iterations = 25;
   DepthModel depth_model = DepthModel::Plane;
   TrackingSettings tracking;
   MappingSettings mapping;

@@ -18,6 +18,8 @@ namespace {
 
 // Mapping steps per submission: a driver may end a submission that runs for seconds.
 constexpr std::size_t kMappingBatch = 5;
+// Views whose lists are kept between their steps: as many as a cycle of the mapping order has by default.
+constexpr std::size_t kKeptLists = 6;
 static_assert(kMappingBatch < FrameStore::kPlaces, "a submission's frames are on the device together");
 
 double milliseconds_since(std::chrono::steady_clock::time_point begin) {
@@ -39,6 +41,7 @@ struct SplatEngine::Implementation {
   FrameStore frames;
   MapBlocks blocks;
   std::vector<CameraVariable> cameras;  ///< of the views of a call, used again and again
+  std::vector<ViewLists> kept_lists;    ///< of some of these views, while others are at hand
 
   explicit Implementation(const EngineOptions& options)
       : device({.selector = options.device, .validate = options.validate}),
@@ -68,6 +71,15 @@ struct SplatEngine::Implementation {
     return std::span(cameras).first(views.size());
   }
 
+  /// Brings the lists that view `v` left behind to hand, if there are any. `at_hand`: whose place is empty.
+  void take_out_lists(std::size_t v, std::size_t& at_hand) {
+    const std::size_t place = v % kKeptLists;
+    if (place == at_hand) return;
+    rasteriser.lists.exchange(kept_lists[at_hand]);
+    rasteriser.lists.exchange(kept_lists[place]);
+    at_hand = place;
+  }
+
   /// Takes the steps of `order`, a few per submission.
   /// Returns how many steps were done.
   std::size_t run_steps(std::span<const MappingView> views, std::span<CameraVariable> view_cameras,
@@ -75,6 +87,8 @@ struct SplatEngine::Implementation {
                         const std::stop_token& stop) {
     GaussianMap& changed = change_map();
     rasteriser.lists.forget();
+    while (kept_lists.size() < kKeptLists) kept_lists.emplace_back(device);
+    std::size_t at_hand = 0;
     gpu::Recorder recorder(device);
     for (std::size_t begin = 0; begin < order.size(); begin += kMappingBatch) {
       if (stop.stop_requested()) return begin;
@@ -82,6 +96,7 @@ struct SplatEngine::Implementation {
       rasteriser.lists.submit(recorder, batch.size(), [&](std::size_t step) {
         const MappingView& view = views[batch[step]];
         CameraVariable& camera = view_cameras[batch[step]];
+        take_out_lists(batch[step], at_hand);
         mapper.record_step(recorder, rasteriser, changed,
                            {.frame = frames.on_device(view.frame),
                             .camera = camera,

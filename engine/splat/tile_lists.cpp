@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <utility>
 
 #include "engine/gpu/error.h"
 
@@ -23,16 +24,19 @@ TileShape TileShape::for_device(const gpu::Device& device) {
   return {.width = 8, .height = 8, .lanes = device.limits().subgroup_size};
 }
 
-TileLists::TileLists(gpu::Device& device, const TileShape& shape)
+ViewLists::ViewLists(gpu::Device& device)
     : dispatch_args(device, "dispatch arguments", 2),
-      splats(device, "splats"),
       visible_count(device, "visible count"),
       visible_ids(device, "visible Gaussians"),
       tile_counts(device, "tile counts"),
       instance_offsets(device, "instance offsets"),
       instances(device, "instances"),
       tile_gaussians(device, "Gaussians of tiles"),
-      tile_ranges(device, "tile ranges"),
+      tile_ranges(device, "tile ranges") {}
+
+TileLists::TileLists(gpu::Device& device, const TileShape& shape)
+    : ViewLists(device),
+      splats(device, "splats"),
       status(device, "render status"),
       device_(device),
       shape_(shape),
@@ -75,9 +79,7 @@ void TileLists::reserve_instances(uint32_t capacity) {
         gpu::Error::Kind::Limit,
         "the view needs more (Gaussian, tile) pairs than the device can dispatch: use a smaller image");
   instance_capacity_ = std::max(instance_capacity_, capacity);
-  instances.reserve(instance_capacity_);
   instance_owners_.reserve(instance_capacity_);
-  tile_gaussians.reserve(instance_capacity_);
   tile_keys_.reserve(instance_capacity_);
 }
 
@@ -93,6 +95,9 @@ void TileLists::reserve(gpu::Recorder& recorder, const GaussianMap& map, const I
   recorder.reserve(depth_order_, gaussians_);
   recorder.reserve(sorted_counts_, gaussians_);
   recorder.reserve(sorted_offsets_, gaussians_);
+  // Those that were put aside may be from before there was room for so many.
+  recorder.reserve(instances, instance_capacity_);
+  recorder.reserve(tile_gaussians, instance_capacity_);
   recorder.reserve(tile_ranges, static_cast<uint64_t>(tiles_x(size)) * tiles_y(size));
 }
 
@@ -102,8 +107,23 @@ void TileLists::record(gpu::Recorder& recorder, const GaussianMap& map,
   reserve(recorder, map, size);
   record_projection(recorder, map, camera, uncertainty_above);
   record_instances(recorder, camera, tiles_x(size) * tiles_y(size));
-  listed_ = &camera;
+  camera_ = &camera;
+  age_ = now_;
   uses_ = 1;
+}
+
+void TileLists::exchange(ViewLists& other) {
+  dispatch_args.exchange_memory(other.dispatch_args);
+  visible_count.exchange_memory(other.visible_count);
+  visible_ids.exchange_memory(other.visible_ids);
+  tile_counts.exchange_memory(other.tile_counts);
+  instance_offsets.exchange_memory(other.instance_offsets);
+  instances.exchange_memory(other.instances);
+  tile_gaussians.exchange_memory(other.tile_gaussians);
+  tile_ranges.exchange_memory(other.tile_ranges);
+  std::swap(camera_, other.camera_);
+  std::swap(uses_, other.uses_);
+  std::swap(age_, other.age_);
 }
 
 void TileLists::record_again(gpu::Recorder& recorder, const GaussianMap& map,

@@ -33,12 +33,33 @@ struct ImageSize {
   uint64_t pixels() const { return static_cast<uint64_t>(width) * height; }
 };
 
+/// The lists of one view as passes read them. They can be put aside and taken out again
+/// (TileLists::exchange()).
+struct ViewLists {
+  explicit ViewLists(gpu::Device& device);
+
+  gpu::Array<gpu::DispatchArgs> dispatch_args;
+  gpu::Array<glsl::uint> visible_count;     ///< 1
+  gpu::Array<glsl::uint> visible_ids;       ///< per visible Gaussian, ascending: its index in the map
+  gpu::Array<glsl::uint> tile_counts;       ///< per Gaussian of the map: its number of instances
+  gpu::Array<glsl::uint> instance_offsets;  ///< per Gaussian of the map: its first instance
+  gpu::Array<glsl::uint> instances;         ///< their names, sorted by tile, near to far
+  gpu::Array<glsl::uint> tile_gaussians;    ///< in the same order: the instance's Gaussian's index in the map
+  gpu::Array<glsl::uvec2> tile_ranges;      ///< per tile: begin and end in `instances`
+
+ private:
+  friend class TileLists;
+  const gpu::Array<glsl::CameraState>* camera_ = nullptr;  ///< whose lists these are
+  int uses_ = 0;                                           ///< of them so far
+  uint64_t age_ = 0;                                       ///< TileLists::age_ when they were made
+};
+
 /// The projected Gaussians of a view and, for every tile, the list of those that touch it, near to far.
 ///
 /// Per Gaussian: project. Then, for those that touch the image: sort by depth; write one instance per touched
 /// tile in that order; sort stably by tile. An instance is named by its place in the order of the map,
 /// where the instances of one Gaussian lie side by side.
-class TileLists {
+class TileLists : public ViewLists {
  public:
   TileLists(gpu::Device& device, const TileShape& shape);
 
@@ -53,10 +74,12 @@ class TileLists {
                     const gpu::Array<glsl::CameraState>& camera, float uncertainty_above);
   /// Whether the lists are of this camera, and fresh enough for Gaussians that mapping moves.
   bool serve(const gpu::Array<glsl::CameraState>& camera) const {
-    return listed_ == &camera && uses_ < kUses;
+    return camera_ == &camera && age_ == now_ && uses_ < kUses;
   }
-  /// The lists are not to be used again.
-  void forget() { listed_ = nullptr; }
+  /// Puts the lists at hand aside, and takes out what `other` holds.
+  void exchange(ViewLists& other);
+  /// No lists so far are to be used again, those put aside neither.
+  void forget() { ++now_; }
 
   /// Records the steps 0 to `count` - 1, each of which records one view and what is made of it, and submits
   /// them together. Where a view had more instances than there is room for, nothing was changed from its step
@@ -73,17 +96,9 @@ class TileLists {
 
   /// The indirect arguments to dispatch passes over the visible Gaussians with.
   static constexpr uint32_t kVisibleArgs = 0;
-  gpu::Array<gpu::DispatchArgs> dispatch_args;
 
-  gpu::Array<glsl::Splat> splats;           ///< per Gaussian of the map
-  gpu::Array<glsl::uint> visible_count;     ///< 1
-  gpu::Array<glsl::uint> visible_ids;       ///< per visible Gaussian, ascending: its index in the map
-  gpu::Array<glsl::uint> tile_counts;       ///< per Gaussian of the map: its number of instances
-  gpu::Array<glsl::uint> instance_offsets;  ///< per Gaussian of the map: its first instance
-  gpu::Array<glsl::uint> instances;         ///< their names, sorted by tile, near to far
-  gpu::Array<glsl::uint> tile_gaussians;    ///< in the same order: the instance's Gaussian's index in the map
-  gpu::Array<glsl::uvec2> tile_ranges;      ///< per tile: begin and end in `instances`
-  gpu::Array<glsl::RenderStatus> status;    ///< 1
+  gpu::Array<glsl::Splat> splats;         ///< per Gaussian of the map
+  gpu::Array<glsl::RenderStatus> status;  ///< 1
   uint32_t instance_capacity() const { return instance_capacity_; }
 
  private:
@@ -106,8 +121,7 @@ class TileLists {
   TileShape shape_;
   uint32_t instance_capacity_ = 0;
   uint32_t gaussians_ = 0;
-  const gpu::Array<glsl::CameraState>* listed_ = nullptr;  ///< whose lists these are
-  int uses_ = 0;                                           ///< of the lists so far
+  uint64_t now_ = 1;  ///< grows when lists are forgotten
 
   /// Per SH degree, depth model, and whether the Gaussians are those of the lists; made when first needed.
   std::unique_ptr<gpu::Pass<passes::project_splats>> project_[4][2][2];
