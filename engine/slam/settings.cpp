@@ -70,8 +70,8 @@ void bind_mapping(ConfigSchema& schema, MappingSettings& mapping) {
   schema.add("mapping.uncertain_opacity", &mapping.uncertain_opacity, Range{0.0001, 0.99});
   schema.add("mapping.depth", &mapping.depth,
              Choices<DepthKind>{{"alpha", DepthKind::Alpha}, {"normalised", DepthKind::Normalised}});
-  schema.add("mapping.rate_mean", &mapping.rate_mean, kWeight);
-  schema.add("mapping.rate_log_scale", &mapping.rate_log_scale, kRate);
+  schema.add("mapping.rate_centre", &mapping.rate_centre, kWeight);
+  schema.add("mapping.rate_size", &mapping.rate_size, kRate);
   schema.add("mapping.rate_rotation", &mapping.rate_rotation, kRate);
   schema.add("mapping.rate_opacity", &mapping.rate_opacity, kRate);
   schema.add("mapping.rate_colour", &mapping.rate_colour, kRate);

@@ -36,6 +36,7 @@ FrameReport Slam::feed(const Frame& taken, const Tracked& tracked) {
   }
   s.history.add(found);
   turn.tell_tracked(tracked);
+  if (found.state == TrackingState::Good) s.engine.keep_render();
 
   s.change_map(false, [&] {
     if (first)

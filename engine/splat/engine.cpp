@@ -206,6 +206,10 @@ TrackingResult SplatEngine::track(FrameHandle frame, const Camera& start, const 
                                       settings, cameras);
 }
 
+void SplatEngine::keep_render() {
+  implementation_->gauss_newton_tracker.keep_render();
+}
+
 MappingResult SplatEngine::optimise(std::span<MappingView> views, std::span<const int> order,
                                     const MappingSettings& settings, double pixel,
                                     const std::stop_token& stop) {

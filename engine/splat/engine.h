@@ -65,6 +65,10 @@ class SplatEngine {
   TrackingResult track(FrameHandle frame, const Camera& start, const TrackingSettings& settings,
                        std::span<const TrackingReference> references = {});
 
+  /// The frame that was tracked last stays: while the map does not change, the next ones are aligned to the
+  /// render that its tracking ended with, where they are near.
+  void keep_render();
+
   /// Optimises the map over views[order[0]], views[order[1]], ..., one step each, and the poses of the views
   /// that ask for it. `pixel`, the metres that one covers at the scene's distance, scales the rate of the
   /// centres. Where `stop` is asked for, the steps that remain are left out.

@@ -88,6 +88,7 @@ GaussNewtonTracker::Level::Level(gpu::Device& device)
     : sensor(device, "sensor level"),
       rendered(device, "rendered level"),
       points(device, "rendered points"),
+      kept_points(device, "kept points"),
       reference_points(make_arrays<kReferences>(device)) {}
 
 GaussNewtonTracker::GaussNewtonTracker(gpu::Device& device)
@@ -118,6 +119,7 @@ void GaussNewtonTracker::resize(gpu::Recorder& recorder, const ImageSize& size) 
     recorder.reserve(level.sensor, now.pixels());
     recorder.reserve(level.rendered, now.pixels());
     recorder.reserve(level.points, now.pixels());
+    recorder.reserve(level.kept_points, now.pixels());
     now = {now.width / 2, now.height / 2};
   }
   recorder.reserve(partial_sums_,
@@ -179,6 +181,17 @@ void GaussNewtonTracker::hold(std::size_t place, FrameHandle handle, const Senso
   held_[place] = handle;
 }
 
+void GaussNewtonTracker::keep_render() {
+  if (!last_render_) return;
+  for (Level& level : levels_) level.points.exchange_memory(level.kept_points);
+  kept_render_ = std::exchange(last_render_, std::nullopt);
+}
+
+void GaussNewtonTracker::forget_render() {
+  last_render_.reset();
+  kept_render_.reset();
+}
+
 void GaussNewtonTracker::drop(FrameHandle frame) {
   for (auto& held : held_)
     if (held == frame) held.reset();
@@ -210,7 +223,9 @@ uint32_t GaussNewtonTracker::record_sums(gpu::Recorder& recorder, const SensorFr
   const GaussNewtonSettings& weights = settings.gauss_newton;
   recorder.dispatch(render ? sums_pass_ : keyframe_sums_pass_, groups,
                     {.state = state_,
-                     .points = render ? level.points : level.reference_points[of.source - 1],
+                     .points = !render   ? level.reference_points[of.source - 1]
+                               : of.kept ? level.kept_points
+                                         : level.points,
                      .sensor = level.sensor,
                      .partial_sums = partial_sums_},
                     {.width = level.size.width,
@@ -227,15 +242,16 @@ uint32_t GaussNewtonTracker::record_sums(gpu::Recorder& recorder, const SensorFr
 }
 
 void GaussNewtonTracker::record_step(gpu::Recorder& recorder, const Rasteriser& rasteriser,
-                                     const SensorFrame& frame, int level, std::size_t references,
+                                     const SensorFrame& frame, int level, bool kept, std::size_t references,
                                      const TrackingSettings& settings) {
   if (!can_interpolate(levels_[level].size)) return;
   const auto sources = 1 + static_cast<uint32_t>(references);
   uint32_t count = 0;
   for (uint32_t source = 0; source < sources; ++source)
-    count =
-        record_sums(recorder, frame,
-                    {.level = level, .stride = kStrides[level], .source = source, .part = source}, settings);
+    count = record_sums(
+        recorder, frame,
+        {.level = level, .stride = kStrides[level], .source = source, .part = source, .kept = kept},
+        settings);
   recorder.dispatch(step_pass_, 1,
                     {.status = rasteriser.lists.status,
                      .partial_sums = gpu::as_words(partial_sums_),
@@ -263,20 +279,22 @@ void GaussNewtonTracker::record_evidence(gpu::Recorder& recorder, const SensorFr
                     {.count = count, .parts = parts});
 }
 
-/// Records the alignment of the frame to the render: on all levels, or on the finest alone.
+/// Records the alignment of the frame: on all levels, or to a later render on the finest alone.
 void GaussNewtonTracker::record_alignment(gpu::Recorder& recorder, const Rasteriser& rasteriser,
-                                          const SensorFrame& frame, bool coarse_to_fine,
-                                          std::size_t references, const TrackingSettings& settings) {
-  if (coarse_to_fine)
-    for (int level = kLevels - 1; level >= 0; --level)
-      for (int i = 0; i < kFirstSteps[level]; ++i)
-        record_step(recorder, rasteriser, frame, level, references, settings);
-  else
-    for (int i = 0; i < kLaterSteps; ++i) record_step(recorder, rasteriser, frame, 0, references, settings);
+                                          const SensorFrame& frame, Target target, std::size_t references,
+                                          const TrackingSettings& settings) {
+  if (target == Target::Later) {
+    for (int i = 0; i < kLaterSteps; ++i)
+      record_step(recorder, rasteriser, frame, 0, false, references, settings);
+    return;
+  }
+  for (int level = kLevels - 1; level >= 0; --level)
+    for (int i = 0; i < kFirstSteps[level]; ++i)
+      record_step(recorder, rasteriser, frame, level, target == Target::Kept, references, settings);
 }
 
 /// Whether a frame that is expected at `start` can be aligned to this render.
-bool GaussNewtonTracker::serves(const LastRender& render, const Camera& start,
+bool GaussNewtonTracker::serves(const PointsOf& render, const Camera& start,
                                 const TrackingSettings& settings) const {
   const Intrinsics &now = start.intrinsics, &then = render.camera.intrinsics;
   const bool alike = now.width == then.width && now.height == then.height && now.fx == then.fx &&
@@ -299,17 +317,16 @@ TrackingResult GaussNewtonTracker::track(Rasteriser& rasteriser, TrackingLoss& l
   resize(recorder, frame.size);
   record_sensor(recorder, frame);
   TrackingResult result;
-  if (last_render_ && serves(*last_render_, start, settings)) {
-    set_base(state, last_render_->camera, start);
+  if (kept_render_ && serves(*kept_render_, start, settings)) {
+    set_base(state, kept_render_->camera, start);
     state_.upload(std::span(&state, 1));
-    record_alignment(recorder, rasteriser, frame, true, references.size(), settings);
+    record_alignment(recorder, rasteriser, frame, Target::Kept, references.size(), settings);
     recorder.submit();
     state = state_.download(1)[0];
     ++result.iterations;
   } else {
     state_.upload(std::span(&state, 1));
   }
-  last_render_.reset();
   const View view = tracking_view(frame, camera_, settings);
   for (bool last = false; !last;) {
     const bool is_first = result.iterations == 0;
@@ -321,7 +338,8 @@ TrackingResult GaussNewtonTracker::track(Rasteriser& rasteriser, TrackingLoss& l
       if (last)
         record_evidence(recorder, frame, references.size(), settings);
       else
-        record_alignment(recorder, rasteriser, frame, is_first, references.size(), settings);
+        record_alignment(recorder, rasteriser, frame, is_first ? Target::First : Target::Later,
+                         references.size(), settings);
     });
     state = state_.download(1)[0];
     if (!last) ++result.iterations;

@@ -20,8 +20,8 @@ namespace surefield {
 /// map is rendered at the pose so far; the points of the render, and of the images of some keyframes, are
 /// aligned to the frame, coarse to fine, by intensity and by their distance along the normal, with the
 /// weights of t-distributions; then the map is rendered again. One or a few renders take the place of dozens.
-/// The last render of a frame serves the next one to be aligned to, while the map stays as it is and the
-/// camera near. Everything but the decision to stop is on the device.
+/// The render that a frame ended with serves the next one to be aligned to, where it was kept, while the map
+/// stays as it is and the camera near. Everything but the decision to stop is on the device.
 class GaussNewtonTracker {
  public:
   explicit GaussNewtonTracker(gpu::Device& device);
@@ -37,8 +37,10 @@ class GaussNewtonTracker {
   /// The images of a frame have changed: no place holds it any more.
   void drop(FrameHandle frame);
 
-  /// The map has changed: the next frame is not aligned to the last render.
-  void forget_render() { last_render_.reset(); }
+  /// Keeps the render that the last track() ended with: the next frames are aligned to it.
+  void keep_render();
+  /// The map has changed: no frame is aligned to a render of before.
+  void forget_render();
 
   /// Tracks `frame` from the pose of `start`; `references` are the cameras of the frames in the first places.
   TrackingResult track(Rasteriser& rasteriser, TrackingLoss& loss, const GaussianMap& map,
@@ -51,12 +53,17 @@ class GaussNewtonTracker {
   /// Images of one level of the pyramids.
   struct Level {
     ImageSize size;
-    gpu::Array<glsl::vec2> sensor;    ///< intensity, depth
-    gpu::Array<glsl::vec2> rendered;  ///< intensity, depth
-    gpu::Array<glsl::AlignPoint> points;
+    gpu::Array<glsl::vec2> sensor;                                           ///< intensity, depth
+    gpu::Array<glsl::vec2> rendered;                                         ///< intensity, depth
+    gpu::Array<glsl::AlignPoint> points;                                     ///< of the render at hand
+    gpu::Array<glsl::AlignPoint> kept_points;                                ///< of the one that was kept
     std::array<gpu::Array<glsl::AlignPoint>, kReferences> reference_points;  ///< of keyframes' images
     explicit Level(gpu::Device& device);
   };
+
+  /// What a frame is aligned to beside keyframes: the render that was kept, its own first one, or a later
+  /// one.
+  enum class Target { Kept, First, Later };
 
   /// Which sums of an alignment.
   struct SumsOf {
@@ -64,18 +71,19 @@ class GaussNewtonTracker {
     uint32_t stride = 1;       ///< of the pixels that take part
     uint32_t source = 0;       ///< 0: the render; else a keyframe
     uint32_t part = 0;         ///< where they go
+    bool kept = false;         ///< the render is the one that was kept
     bool photometric = false;  ///< of that term alone
   };
 
-  /// The render that the points of the levels are of.
-  struct LastRender {
+  /// What points of the levels are of.
+  struct PointsOf {
     Camera camera;
     double minimum_opacity = 0;
     double uncertainty_above = 0;
     DepthKind depth = DepthKind::Normalised;
   };
 
-  bool serves(const LastRender& render, const Camera& start, const TrackingSettings& settings) const;
+  bool serves(const PointsOf& render, const Camera& start, const TrackingSettings& settings) const;
   void resize(gpu::Recorder& recorder, const ImageSize& size);
   void record_sensor(gpu::Recorder& recorder, const SensorFrame& frame);
   void record_halves(gpu::Recorder& recorder, gpu::Array<glsl::vec2> Level::*image);
@@ -87,11 +95,11 @@ class GaussNewtonTracker {
   uint32_t record_sums(gpu::Recorder& recorder, const SensorFrame& frame, const SumsOf& of,
                        const TrackingSettings& settings);
   void record_step(gpu::Recorder& recorder, const Rasteriser& rasteriser, const SensorFrame& frame, int level,
-                   std::size_t references, const TrackingSettings& settings);
+                   bool kept, std::size_t references, const TrackingSettings& settings);
   void record_evidence(gpu::Recorder& recorder, const SensorFrame& frame, std::size_t references,
                        const TrackingSettings& settings);
   void record_alignment(gpu::Recorder& recorder, const Rasteriser& rasteriser, const SensorFrame& frame,
-                        bool coarse_to_fine, std::size_t references, const TrackingSettings& settings);
+                        Target target, std::size_t references, const TrackingSettings& settings);
 
   gpu::Device& device_;
   uint32_t subgroups_;  ///< of a workgroup of align_sums: each writes a partial sum
@@ -111,7 +119,8 @@ class GaussNewtonTracker {
   gpu::Array<glsl::AlignSums> evidence_;
   std::array<Level, kLevels> levels_;
   std::array<std::optional<FrameHandle>, kReferences> held_;
-  std::optional<LastRender> last_render_;
+  std::optional<PointsOf> last_render_;
+  std::optional<PointsOf> kept_render_;
 };
 
 }  // namespace surefield

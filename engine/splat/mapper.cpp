@@ -129,8 +129,8 @@ void Mapper::record_update(gpu::Recorder& recorder, const Rasteriser& rasteriser
                               .opacity_logits_m = map.opacity_logits.first_moment,
                               .opacity_logits_v = map.opacity_logits.second_moment,
                               .steps = map.steps},
-                             {.rate_mean = static_cast<float>(settings.rate_mean * pixel),
-                              .rate_log_scale = static_cast<float>(settings.rate_log_scale),
+                             {.rate_mean = static_cast<float>(settings.rate_centre * pixel),
+                              .rate_log_scale = static_cast<float>(settings.rate_size),
                               .rate_rotation = static_cast<float>(settings.rate_rotation),
                               .rate_opacity = static_cast<float>(settings.rate_opacity)});
   recorder.dispatch_indirect(colour_update(map.sh_degree()), lists.dispatch_args, TileLists::kVisibleArgs,

@@ -105,8 +105,8 @@ struct MappingSettings {
   DepthKind depth = DepthKind::Normalised;
   double uncertainty_above = 0.025;
   double uncertain_opacity = 0.01;
-  double rate_mean = 0.1;  ///< pixels at the scene's distance
-  double rate_log_scale = 1.5e-3;
+  double rate_centre = 0.1;  ///< pixels at the scene's distance
+  double rate_size = 1.5e-3;
   double rate_rotation = 5e-3;
   double rate_opacity = 5e-2;
   double rate_colour = 5e-3;

@@ -106,7 +106,7 @@ TEST_CASE("a step that finds the lists of the step before does the same") {
   };
   // While nothing moves, not a bit differs; where it does, only at the fringe of what has grown.
   MappingSettings still;
-  still.rate_mean = still.rate_log_scale = still.rate_rotation = still.rate_opacity = 0;
+  still.rate_centre = still.rate_size = still.rate_rotation = still.rate_opacity = 0;
   CHECK(after_steps(true, 3, still).sh == after_steps(false, 3, still).sh);
   const GaussianCloud once = after_steps(false, 9, {}), again = after_steps(true, 9, {});
   double moved = 0, apart = 0;

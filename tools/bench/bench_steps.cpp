@@ -66,7 +66,7 @@ Camera moved(Camera camera) {
 /// Settings with which all the work is done and nothing moves.
 MappingSettings still_mapping() {
   MappingSettings settings;
-  settings.rate_mean = settings.rate_log_scale = settings.rate_rotation = 0;
+  settings.rate_centre = settings.rate_size = settings.rate_rotation = 0;
   settings.rate_opacity = settings.rate_colour = 0;
   settings.rate_pose_rotation = settings.rate_pose_translation = 0;
   return settings;
