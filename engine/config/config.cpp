@@ -102,9 +102,9 @@ void ConfigSchema::document(const std::string& text) {
   }
 }
 
-void ConfigSchema::renamed(const std::string& old, const std::string& key) {
+void ConfigSchema::renamed(const std::string& old, const std::string& key, const std::string& unit) {
   if (find(old) || !find(key)) throw UsageError(old + " cannot be an old name of " + key);
-  renamed_[old] = key;
+  renamed_[old] = unit.empty() ? key : key + ", which is " + unit;
 }
 
 bool ConfigSchema::is_section(const std::string& key) const {

@@ -79,9 +79,9 @@ class ConfigSchema {
   /// text has no such comment.
   void document(const std::string& text);
 
-  /// Tells whoever gives the key `old` that its name is `key`, which has been added. Throws UsageError
-  /// where it has not, or where `old` is a key.
-  void renamed(const std::string& old, const std::string& key);
+  /// Tells whoever gives the key `old` that its name is `key`, which has been added, and where its unit is
+  /// another one too, which. Throws UsageError where it has not been added, or where `old` is a key.
+  void renamed(const std::string& old, const std::string& key, const std::string& unit = {});
 
   /// Reads a YAML file; nested maps are dotted keys. A top-level key `base` names a file, relative to this
   /// one, that is read first. Throws InputError with file, line and key for an unknown key (with its

@@ -28,6 +28,9 @@ constexpr std::pair<const char*, const char*> kRenamed[] = {
     {"tracking.references", "gauss_newton.references"},
     {"tracking.reference_weight", "gauss_newton.reference_weight"}};
 
+constexpr const char* kPixelUnit = "in pixels at the scene's distance";
+constexpr const char* kNoExtent = "not multiplied by the scene's extent any more";
+
 void bind_tracking(ConfigSchema& schema, TrackingSettings& tracking) {
   schema.add(
       "tracking.method", &tracking.method,
@@ -139,6 +142,8 @@ void SlamSettings::bind(ConfigSchema& schema) {
   schema.add("light.correct_above", &light.correct_above, kFactor);
   schema.document(built_in_configs().at("base.yaml"));
   for (const auto& [old, key] : kRenamed) schema.renamed(old, key);
+  schema.renamed("mapping.rate_mean", "mapping.rate_centre", kPixelUnit);
+  schema.renamed("mapping.rate_log_scale", "mapping.rate_size", kNoExtent);
 }
 
 }  // namespace surefield

@@ -25,7 +25,7 @@ constexpr double kEvidencePixels = 6400;
 constexpr std::size_t kParts = 2 * glsl::ALIGN_SOURCES;
 // Tracking ends when an alignment has moved the camera by less, radians and metres.
 constexpr double kStill = 3e-4;
-// A frame is aligned to the last one's render where the camera is expected to have moved by less since,
+// A frame is aligned to the render that was kept where the camera is expected to have moved by less since,
 // radians and metres.
 constexpr double kNear = 0.1;
 // Where a keyframe has no depth, metres: half an inverse metre, give or take as much, is anything from a
@@ -293,15 +293,16 @@ void GaussNewtonTracker::record_alignment(gpu::Recorder& recorder, const Rasteri
       record_step(recorder, rasteriser, frame, level, target == Target::Kept, references, settings);
 }
 
-/// Whether a frame that is expected at `start` can be aligned to this render.
-bool GaussNewtonTracker::serves(const PointsOf& render, const Camera& start,
-                                const TrackingSettings& settings) const {
-  const Intrinsics &now = start.intrinsics, &then = render.camera.intrinsics;
+/// Whether there is a render that was kept to which a frame that is expected at `start` can be aligned.
+bool GaussNewtonTracker::kept_render_serves(const Camera& start, const TrackingSettings& settings) const {
+  if (!kept_render_) return false;
+  const Intrinsics &now = start.intrinsics, &then = kept_render_->camera.intrinsics;
   const bool alike = now.width == then.width && now.height == then.height && now.fx == then.fx &&
                      now.fy == then.fy && now.cx == then.cx && now.cy == then.cy &&
-                     settings.depth == render.depth && settings.minimum_opacity == render.minimum_opacity &&
-                     settings.uncertainty_above == render.uncertainty_above;
-  const Pose motion = start.world_to_camera * render.camera.world_to_camera.inverse();
+                     settings.depth == kept_render_->depth &&
+                     settings.minimum_opacity == kept_render_->minimum_opacity &&
+                     settings.uncertainty_above == kept_render_->uncertainty_above;
+  const Pose motion = start.world_to_camera * kept_render_->camera.world_to_camera.inverse();
   return alike && motion.translation().norm() < kNear && Eigen::AngleAxisd(motion.rotation()).angle() < kNear;
 }
 
@@ -316,16 +317,15 @@ TrackingResult GaussNewtonTracker::track(Rasteriser& rasteriser, TrackingLoss& l
   gpu::Recorder recorder(device_);
   resize(recorder, frame.size);
   record_sensor(recorder, frame);
+  const bool serves = kept_render_serves(start, settings);
+  if (serves) set_base(state, kept_render_->camera, start);
+  state_.upload(std::span(&state, 1));
   TrackingResult result;
-  if (kept_render_ && serves(*kept_render_, start, settings)) {
-    set_base(state, kept_render_->camera, start);
-    state_.upload(std::span(&state, 1));
+  if (serves) {
     record_alignment(recorder, rasteriser, frame, Target::Kept, references.size(), settings);
     recorder.submit();
     state = state_.download(1)[0];
     ++result.iterations;
-  } else {
-    state_.upload(std::span(&state, 1));
   }
   const View view = tracking_view(frame, camera_, settings);
   for (bool last = false; !last;) {

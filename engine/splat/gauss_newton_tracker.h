@@ -83,7 +83,7 @@ class GaussNewtonTracker {
     DepthKind depth = DepthKind::Normalised;
   };
 
-  bool serves(const PointsOf& render, const Camera& start, const TrackingSettings& settings) const;
+  bool kept_render_serves(const Camera& start, const TrackingSettings& settings) const;
   void resize(gpu::Recorder& recorder, const ImageSize& size);
   void record_sensor(gpu::Recorder& recorder, const SensorFrame& frame);
   void record_halves(gpu::Recorder& recorder, gpu::Array<glsl::vec2> Level::*image);

@@ -56,6 +56,8 @@ TEST_CASE("keys that apply to one method of tracking lead from their old names t
                          std::string("has been renamed; use ") + key));
     CHECK_NOTHROW(schema.set(std::string(key) + "=1"));
   }
+  CHECK(test::contains(test::input_error([&] { schema.set("mapping.rate_mean=0.0003"); }),
+                       std::string("use mapping.rate_centre, which is in pixels")));
 }
 
 TEST_CASE("a run takes the configuration of its format, then the user's values") {
