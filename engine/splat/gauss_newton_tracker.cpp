@@ -19,6 +19,8 @@ constexpr int kLaterSteps = 4;
 constexpr uint32_t kStrides[] = {9, 3, 1};
 // And of those every so many tell how certain the pose is.
 constexpr uint32_t kEvidenceStride = 14;
+// Fewer pixels than this are not thinned out to.
+constexpr uint64_t kLeastSamples = 1000;
 // It counts as that of so many pixels, however fine the images: what errs together does not become smaller.
 constexpr double kEvidencePixels = 6400;
 // Parts of the evidence: each source as a whole, and its photometric term alone.
@@ -35,6 +37,11 @@ constexpr float kUnmeasured = 2;
 constexpr glsl::AlignScales kFirstScales{.colour = 0.1f * 0.1f, .depth = 10 * 10};
 
 static_assert(sizeof(glsl::AlignSums) == glsl::ALIGN_VALUES * sizeof(float));
+
+/// `stride`, or what leaves enough pixels of a small image.
+uint32_t stride_of(uint32_t stride, const ImageSize& size) {
+  return static_cast<uint32_t>(std::clamp<uint64_t>(size.pixels() / kLeastSamples, 1, stride));
+}
 
 /// Whether there is anything to interpolate between.
 bool can_interpolate(const ImageSize& size) {
@@ -246,12 +253,12 @@ void GaussNewtonTracker::record_step(gpu::Recorder& recorder, const Rasteriser& 
                                      const TrackingSettings& settings) {
   if (!can_interpolate(levels_[level].size)) return;
   const auto sources = 1 + static_cast<uint32_t>(references);
+  const uint32_t stride = stride_of(kStrides[level], levels_[level].size);
   uint32_t count = 0;
   for (uint32_t source = 0; source < sources; ++source)
-    count = record_sums(
-        recorder, frame,
-        {.level = level, .stride = kStrides[level], .source = source, .part = source, .kept = kept},
-        settings);
+    count = record_sums(recorder, frame,
+                        {.level = level, .stride = stride, .source = source, .part = source, .kept = kept},
+                        settings);
   recorder.dispatch(step_pass_, 1,
                     {.status = rasteriser.lists.status,
                      .partial_sums = gpu::as_words(partial_sums_),
@@ -269,7 +276,7 @@ void GaussNewtonTracker::record_evidence(gpu::Recorder& recorder, const SensorFr
   for (uint32_t part = 0; part < parts; ++part)
     count = record_sums(recorder, frame,
                         {.level = 0,
-                         .stride = kEvidenceStride,
+                         .stride = stride_of(kEvidenceStride, frame.size),
                          .source = part / 2,
                          .part = part,
                          .photometric = part % 2 == 1},
@@ -356,8 +363,8 @@ TrackingResult GaussNewtonTracker::track(Rasteriser& rasteriser, TrackingLoss& l
   result.seen_through = state.best_through;
   if (can_interpolate(frame.size)) {
     const auto parts = evidence_.download(2 * (1 + references.size()));
-    result.evidence =
-        evidence_of(parts, kEvidencePixels * kEvidenceStride / static_cast<double>(frame.size.pixels()));
+    result.evidence = evidence_of(parts, kEvidencePixels * stride_of(kEvidenceStride, frame.size) /
+                                             static_cast<double>(frame.size.pixels()));
   }
   result.milliseconds =
       std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();

@@ -16,6 +16,11 @@ using namespace surefield::test;
 
 namespace {
 
+/// A colour that goes up and down, so that the wall can be tracked.
+uchar wave(double phase) {
+  return static_cast<uchar>(127 + 100 * std::sin(phase));
+}
+
 /// A sequence in the layout of Replica that takes no time: three frames of a wall with colours on it.
 void write_wall(const TemporaryFolder& folder, const std::string& name) {
   constexpr int kWidth = 32, kHeight = 24;
@@ -29,7 +34,7 @@ void write_wall(const TemporaryFolder& folder, const std::string& name) {
     for (int v = 0; v < kHeight; ++v)
       for (int u = 0; u < kWidth; ++u)
         colour.at<cv::Vec3b>(v, u) =
-            cv::Vec3b(static_cast<uchar>(8 * (u + i)), static_cast<uchar>(10 * v), 90);
+            cv::Vec3b(wave(0.5 * (u + i)), wave(0.6 * v), wave(0.3 * (u + i) + 0.2 * v));
     const std::string number = "00000" + std::to_string(i);
     write_png(folder / (name + "/results/depth" + number + ".png"),
               cv::Mat(kHeight, kWidth, CV_16UC1, cv::Scalar(2000)));
