@@ -51,7 +51,7 @@ struct ViewLists {
   friend class TileLists;
   const gpu::Array<glsl::CameraState>* camera_ = nullptr;  ///< whose lists these are
   int uses_ = 0;                                           ///< of them so far
-  uint64_t age_ = 0;                                       ///< TileLists::age_ when they were made
+  uint64_t age_ = 0;                                       ///< TileLists::now_ when they were made
 };
 
 /// The projected Gaussians of a view and, for every tile, the list of those that touch it, near to far.

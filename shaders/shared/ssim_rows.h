@@ -1,4 +1,5 @@
-// SSIM, first pass: moments of the intensity blurred along the rows; pixels without sensor depth are as if outside of the image. Counts the pixels with a median depth on the way.
+// SSIM, first pass: moments of the intensity blurred along the rows; pixels without sensor depth are as if outside of the
+// image. Counts the pixels with a median depth on the way.
 #include "loss_types.h"
 
 #define PASS ssim_rows

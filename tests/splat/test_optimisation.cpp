@@ -118,6 +118,42 @@ TEST_CASE("a step that finds the lists of the step before does the same") {
   CHECK(apart < 0.02 * moved);
 }
 
+TEST_CASE("lists that were put aside are those of their view when they are taken out again") {
+  gpu::Device& device = testing::device();
+  const auto scene = reference::random_scene(3, 300, {.width = 83, .height = 61});
+  Camera small = scene.camera;
+  small.intrinsics = scene.camera.intrinsics.scaled(0.5);
+  const auto frame_of_camera = [&](const Camera& camera) {
+    const std::vector<uint8_t> colour(3u * camera.intrinsics.width * camera.intrinsics.height, 128);
+    const std::vector<float> depth(colour.size() / 3, 2.0f);
+    return SensorFrame(device,
+                       {camera.intrinsics.width, camera.intrinsics.height, colour.data(), depth.data()});
+  };
+  const SensorFrame frames[] = {frame_of_camera(scene.camera), frame_of_camera(small)};
+  MappingSettings still;
+  still.rate_centre = still.rate_size = still.rate_rotation = still.rate_opacity = 0;
+  const auto colours_after = [&](bool keep) {
+    Rasteriser rasteriser(device);
+    Mapper mapper(device);
+    GaussianMap map(device);
+    map.assign(scene.cloud);
+    CameraVariable cameras[] = {CameraVariable(device, scene.camera), CameraVariable(device, small)};
+    ViewLists aside(device);
+    gpu::Recorder recorder(device);
+    int served = 0;
+    rasteriser.lists.submit(recorder, 6, [&](std::size_t step) {
+      if (keep && step > 0) rasteriser.lists.exchange(aside);
+      const bool same = keep && rasteriser.lists.serve(cameras[step % 2].camera);
+      served += same;
+      mapper.record_step(recorder, rasteriser, map, {frames[step % 2], cameras[step % 2], false, same}, still,
+                         0.006);
+    });
+    CHECK(served == (keep ? 4 : 0));
+    return map.download().sh;
+  };
+  CHECK(colours_after(true) == colours_after(false));
+}
+
 TEST_CASE("the isotropy loss adds its gradient, above its epsilon alone") {
   gpu::Device& device = testing::device();
   Rasteriser rasteriser(device);
