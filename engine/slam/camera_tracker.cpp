@@ -25,6 +25,10 @@ constexpr TrackingFit kFirstFit{.loss = 0, .share = 0.5, .explained = 0.5, .seen
 constexpr int kFewestInliers = 15;  // features that a pose is told by
 constexpr int kMatched = 10;        // keyframes that a frame's features are compared with, the newest ones
 
+bool is_certain(const PoseCovariance& covariance) {
+  return position_sigma(covariance) < kPoorPosition && rotation_sigma(covariance) < kPoorRotation;
+}
+
 }  // namespace
 
 /// Constant velocity: the last pose moved on by the last motion. After a lost frame, the last pose that was
@@ -45,12 +49,34 @@ std::optional<CameraMotion> CameraTracker::last_motion() const {
                       history_.report(n - 1).timestamp - history_.report(n - 2).timestamp};
 }
 
+/// By how much constant velocity was wrong about the last frame; nothing where that cannot be told.
+PredictionError CameraTracker::last_error() const {
+  const std::size_t n = history_.size();
+  if (n < 3) return {};
+  for (std::size_t i = n - 3; i < n; ++i)
+    if (history_.report(i).state != TrackingState::Good) return {};
+  const Pose last = history_.world_to_camera(n - 2);
+  const Pose predicted = last * history_.world_to_camera(n - 3).inverse() * last;
+  const Pose off = history_.world_to_camera(n - 1) * predicted.inverse();
+  return {off.translation().norm(), Eigen::AngleAxisd(off.rotation()).angle()};
+}
+
+/// Aligns a frame from `start`. What it leaves open is as predicted: without that, the noise of the images
+/// holds the camera where it was.
+TrackingResult CameraTracker::align(FrameHandle image, const Pose& start,
+                                    const TrackingSettings& tracking) const {
+  TrackingResult result = engine_.track(image, {intrinsics_, start}, tracking, keyframes_.references());
+  if (last_motion() && !is_certain(covariance_of(result.evidence)))
+    result.world_to_camera = fuse(predict(), usual_fit().error, result.world_to_camera, result.evidence);
+  return result;
+}
+
 void CameraTracker::track(FrameHandle image, FrameFeatures& features, const Pose& start,
                           FrameReport& report) const {
   TrackingSettings tracking = settings_.tracking;
   if (history_.size() == 1)
     tracking.adam.iterations = std::max(tracking.adam.iterations, tracking.adam.first_iterations);
-  TrackingResult result = engine_.track(image, {intrinsics_, start}, tracking, keyframes_.references());
+  TrackingResult result = align(image, start, tracking);
   report.tracking_iterations = result.iterations;
   report.tracking_ms = result.milliseconds;
   if (state_of(result) != TrackingState::Good) result = retry(image, features, tracking, result, report);
@@ -77,7 +103,7 @@ TrackingResult CameraTracker::retry(FrameHandle image, FrameFeatures& features,
   starts.push_back(keyframes_.world_to_camera(keyframes_.newest()));
   for (const Pose& start : starts) {
     if (state_of(best) == TrackingState::Good) break;
-    const TrackingResult other = engine_.track(image, {intrinsics_, start}, patient, keyframes_.references());
+    const TrackingResult other = align(image, start, patient);
     ++report.retries;
     report.tracking_iterations += other.iterations;
     report.tracking_ms += other.milliseconds;
@@ -109,6 +135,8 @@ TrackingFit CameraTracker::usual_fit() const {
     mean.share += fit.share / count;
     mean.explained += fit.explained / count;
     mean.seen_through += fit.seen_through / count;
+    mean.error.position += fit.error.position / count;
+    mean.error.rotation += fit.error.rotation / count;
   }
   return mean;
 }
@@ -120,13 +148,10 @@ TrackingState CameraTracker::state_of(const TrackingResult& result) const {
   const double share = result.explained / result.valid_fraction;
   if (share < kLostShare * usual.share || result.explained < kLostExplained * usual.explained)
     return TrackingState::Lost;
-  const PoseCovariance covariance = covariance_of(result.evidence);
-  const bool certain =
-      position_sigma(covariance) < kPoorPosition && rotation_sigma(covariance) < kPoorRotation;
   const bool explained = share > kPoorShare * usual.share &&
                          result.explained > kPoorExplained * usual.explained &&
                          result.seen_through < usual.seen_through + kPoorThrough;
-  if (certain && explained) return TrackingState::Good;
+  if (explained && is_certain(covariance_of(result.evidence))) return TrackingState::Good;
   return is_near_last(result.world_to_camera) ? TrackingState::Poor : TrackingState::Lost;
 }
 
@@ -153,7 +178,7 @@ void CameraTracker::accept(const FrameReport& report) {
   if (report.state != TrackingState::Good) return;
   if (valid_after_keyframe_ == 0) valid_after_keyframe_ = report.valid_fraction;
   recent_.push_back({report.tracking_loss, report.explained / report.valid_fraction, report.explained,
-                     report.seen_through});
+                     report.seen_through, last_error()});
   if (recent_.size() > kRecent) recent_.pop_front();
 }
 

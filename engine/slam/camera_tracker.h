@@ -6,6 +6,7 @@
 #include "engine/slam/frame_features.h"
 #include "engine/slam/frame_history.h"
 #include "engine/slam/keyframe_graph.h"
+#include "engine/slam/pose_covariance.h"
 
 namespace surefield {
 
@@ -15,6 +16,7 @@ struct TrackingFit {
   double share = 0;         ///< what the map explains of the depth that is compared
   double explained = 0;     ///< of all of the sensor's depth
   double seen_through = 0;  ///< of the same, what sees through the map
+  PredictionError error;    ///< of constant velocity
 };
 
 /// Finds where the camera is: predicts its pose, tracks it in the map as it stands, and judges how far the
@@ -54,6 +56,8 @@ class CameraTracker {
   TrackingState state_of(const TrackingResult& result) const;
   bool is_near_last(const Pose& world_to_camera) const;
   bool is_better(const TrackingResult& result, const TrackingResult& other) const;
+  PredictionError last_error() const;
+  TrackingResult align(FrameHandle image, const Pose& start, const TrackingSettings& tracking) const;
   TrackingResult retry(FrameHandle image, FrameFeatures& features, const TrackingSettings& tracking,
                        TrackingResult best, FrameReport& report) const;
   std::optional<Pose> pose_by_features(FrameFeatures& features) const;

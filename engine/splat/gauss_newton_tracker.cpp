@@ -108,6 +108,8 @@ GaussNewtonTracker::GaussNewtonTracker(gpu::Device& device)
       points_pass_(device, gpu::kWorkgroup),
       sums_pass_(device, gpu::kWorkgroup, {.FROM_KEYFRAME = 0}),
       keyframe_sums_pass_(device, gpu::kWorkgroup, {.FROM_KEYFRAME = 1}),
+      crossed_sums_pass_(device, gpu::kWorkgroup, {.CROSSED = 1}),
+      crossed_keyframe_sums_pass_(device, gpu::kWorkgroup, {.FROM_KEYFRAME = 1, .CROSSED = 1}),
       begin_pass_(device, device.limits().subgroup_size),
       step_pass_(device, gpu::kWorkgroup),
       evidence_pass_(device, gpu::kWorkgroup),
@@ -228,7 +230,9 @@ uint32_t GaussNewtonTracker::record_sums(gpu::Recorder& recorder, const SensorFr
   const auto strips = static_cast<uint32_t>((samples + glsl::ALIGN_STRIP - 1) / glsl::ALIGN_STRIP);
   const uint32_t groups = sums_pass_.groups(strips), count = groups * subgroups_;
   const GaussNewtonSettings& weights = settings.gauss_newton;
-  recorder.dispatch(render ? sums_pass_ : keyframe_sums_pass_, groups,
+  const auto& step = render ? sums_pass_ : keyframe_sums_pass_;
+  const auto& crossed = render ? crossed_sums_pass_ : crossed_keyframe_sums_pass_;
+  recorder.dispatch(of.crossed ? crossed : step, groups,
                     {.state = state_,
                      .points = !render   ? level.reference_points[of.source - 1]
                                : of.kept ? level.kept_points
@@ -279,7 +283,8 @@ void GaussNewtonTracker::record_evidence(gpu::Recorder& recorder, const SensorFr
                          .stride = stride_of(kEvidenceStride, frame.size),
                          .source = part / 2,
                          .part = part,
-                         .photometric = part % 2 == 1},
+                         .photometric = part % 2 == 1,
+                         .crossed = true},
                         settings);
   recorder.dispatch(evidence_pass_, 1,
                     {.partial_sums = gpu::as_words(partial_sums_), .evidence = gpu::as_words(evidence_)},

@@ -73,6 +73,7 @@ class GaussNewtonTracker {
     uint32_t part = 0;         ///< where they go
     bool kept = false;         ///< the render is the one that was kept
     bool photometric = false;  ///< of that term alone
+    bool crossed = false;      ///< as evidence, of which noise is no part
   };
 
   /// What points of the levels are of.
@@ -110,6 +111,8 @@ class GaussNewtonTracker {
   gpu::Pass<passes::align_points> points_pass_;
   gpu::Pass<passes::align_sums> sums_pass_;
   gpu::Pass<passes::align_sums> keyframe_sums_pass_;
+  gpu::Pass<passes::align_sums> crossed_sums_pass_;           ///< of the evidence
+  gpu::Pass<passes::align_sums> crossed_keyframe_sums_pass_;  ///< of the evidence
   gpu::Pass<passes::align_begin> begin_pass_;
   gpu::Pass<passes::align_step> step_pass_;
   gpu::Pass<passes::align_evidence> evidence_pass_;

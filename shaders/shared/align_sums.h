@@ -2,7 +2,9 @@
 #include "align_types.h"
 
 #define PASS align_sums
-#define PASS_CONSTANTS(C) C(1, FROM_KEYFRAME, 0) /* the points are those of a keyframe, not of the render */
+#define PASS_CONSTANTS(C)                                                                       \
+  C(1, FROM_KEYFRAME, 0) /* the points are those of a keyframe, not of the render */            \
+  C(2, CROSSED, 0)       /* the normal matrix is that of evidence (lib/crossed_derivatives.glsl) */
 #define PASS_PARAMS(P)                                          \
   P(uint, width) P(uint, height) P(uint, level) P(uint, strips) \
   P(uint, stride)  /* of the pixels that take part */              \

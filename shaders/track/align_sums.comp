@@ -3,6 +3,7 @@
 #include "align_sums.h"
 #include "depth_noise.glsl"
 #include "pyramid.glsl"
+#include "crossed_derivatives.glsl"
 #include "triangle.glsl"
 
 const float T_FREEDOM = 5;        // of the residuals' t-distributions
@@ -14,16 +15,25 @@ float t_weight(float residual, float variance) {
   return (T_FREEDOM + 1) / (T_FREEDOM + residual * residual / variance);
 }
 
-/// Adds one residual, with its derivative by the translation and the rotation.
-void add_residual(inout AlignSums s, float residual, vec3 by_translation, vec3 by_rotation, float weight) {
-  const float J[6] = float[](by_translation.x, by_translation.y, by_translation.z,  //
-                             by_rotation.x, by_rotation.y, by_rotation.z);
+/// The derivative of a residual by the translation and the rotation.
+struct Derivative {
+  vec3 by_translation;
+  vec3 by_rotation;
+};
+
+/// Adds one residual, with its derivative, and for evidence with the derivative as the points tell it.
+void add_residual(inout AlignSums s, float residual, Derivative own, Derivative other, float weight) {
+  const float J[6] = float[](own.by_translation.x, own.by_translation.y, own.by_translation.z,  //
+                             own.by_rotation.x, own.by_rotation.y, own.by_rotation.z);
+  const float K[6] = float[](other.by_translation.x, other.by_translation.y, other.by_translation.z,  //
+                             other.by_rotation.x, other.by_rotation.y, other.by_rotation.z);
   [[unroll]] for (uint row = 0; row < 6; ++row) {
     const float weighted = weight * J[row];
     s.slope[row] += weighted * residual;
     [[unroll]] for (uint column = 0; column < 6; ++column) {
       if (column < row) continue;  // decided when the loops are unrolled
-      s.normal[triangle_at(row, column)] += weighted * J[column];
+      s.normal[triangle_at(row, column)] +=
+          CROSSED == 1 ? 0.5 * (weighted * K[column] + weight * K[row] * J[column]) : weighted * J[column];
     }
   }
 }
@@ -102,7 +112,13 @@ void main() {
     const float w_colour = shown ? certainty * t_weight(sqrt(certainty) * off, variance_colour) : 0;
     s.squares_colour += w_colour * off * off;
     s.pixels_colour += shown ? 1 : 0;
-    add_residual(s, off, by_point, cross(Y, by_point), params.weight * w_colour / variance_colour);
+    const Derivative light = Derivative(by_point, cross(Y, by_point));
+    Derivative points_light = light;
+    if (CROSSED == 1 && shown) {
+      const vec3 by_source = R * intensity_slope(i, k, params.width, params.height);
+      points_light = Derivative(by_source, cross(Y, by_source));
+    }
+    add_residual(s, off, light, points_light, params.weight * w_colour / variance_colour);
 
     const vec3 S = unproject(k, vec2(corner) + vec2(right, lower), depth);
     const bool measured = visible && depth > 0 && abs(depth - Y.z) < DEPTH_GATE * Y.z && point.normal != vec3(0);
@@ -112,7 +128,13 @@ void main() {
     const float w_depth = measured ? t_weight(distance, variance_depth) : 0;
     s.squares_depth += w_depth * distance * distance;
     s.pixels_depth += measured ? 1 : 0;
-    add_residual(s, distance, scale * m, scale * cross(S, m), params.weight * params.balance * w_depth / variance_depth);
+    const Derivative shape = Derivative(scale * m, scale * cross(S, m));
+    Derivative frame_shape = shape;
+    if (CROSSED == 1 && measured) {
+      const vec3 n = scale * sensor_normal(corner + uvec2(right, lower), k, params.width, params.height, dot(m, S));
+      frame_shape = Derivative(n, cross(S, n));
+    }
+    add_residual(s, distance, shape, frame_shape, params.weight * params.balance * w_depth / variance_depth);
   }
   s = subgroup_sums(s);
   if (gl_SubgroupInvocationID == 0) partial_sums[params.first + gl_WorkGroupID.x * gl_NumSubgroups + gl_SubgroupID] = s;

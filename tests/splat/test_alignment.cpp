@@ -120,10 +120,78 @@ struct Sums {
   double squares_colour = 0, squares_depth = 0, pixels_colour = 0, pixels_depth = 0;
 };
 
+constexpr double kStep = 1e-6;
+
+bool inside(const Pair& p, int column, int row) {
+  return column > 0 && row > 0 && column + 1 < p.width && row + 1 < p.height;
+}
+
+Eigen::Vector3d ray_of(const Pair& p, int column, int row) {
+  const Intrinsics& k = p.intrinsics;
+  return {(column - k.cx) / k.fx, (row - k.cy) / k.fy, 1};
+}
+
+/// The derivative of the photometric residual as the points tell it: how their own image changes around point
+/// i where it moves as the camera does.
+Vector6 colour_by_points(const Pair& p, int i, const Pose& pose) {
+  const Intrinsics& k = p.intrinsics;
+  const int column = i % p.width, row = i / p.width;
+  if (!inside(p, column, row)) return Vector6::Zero();
+  const auto at = [&](int x, int y) {
+    return static_cast<double>(p.points[(row + y) * p.width + column + x].intensity);
+  };
+  const Eigen::Vector3d Y = pose * (std::abs(p.points[i].depth) * ray_of(p, column, row));
+  const auto intensity = [&](const Vector6& xi) {
+    const Eigen::Vector3d P = pose.inverse() * (small_motion(xi) * Y);
+    const double u = k.fx * P.x() / P.z() + k.cx - column, v = k.fy * P.y() / P.z() + k.cy - row;
+    return u * (at(1, 0) - at(-1, 0)) / 2 + v * (at(0, 1) - at(0, -1)) / 2;
+  };
+  return Vector6::NullaryExpr([&](Eigen::Index n) {
+    return (intensity(kStep * Vector6::Unit(n)) - intensity(-kStep * Vector6::Unit(n))) / (2 * kStep);
+  });
+}
+
+/// The derivative of the geometric residual as the frame tells it: with the normal of the plane on which the
+/// inverse depths of the frame's four neighbours lie, as long as the distance of the plane is the points'.
+Vector6 depth_by_frame(const Pair& p, int i, const Pose& pose) {
+  const Intrinsics& k = p.intrinsics;
+  const Eigen::Vector3d Y = pose * (std::abs(p.points[i].depth) * ray_of(p, i % p.width, i / p.width));
+  const double u = k.fx * Y.x() / Y.z() + k.cx, v = k.fy * Y.y() / Y.z() + k.cy;
+  const int column = static_cast<int>(std::floor(u + 0.5)), row = static_cast<int>(std::floor(v + 0.5));
+  if (!inside(p, column, row)) return Vector6::Zero();
+  const auto depth = [&](int x, int y) {
+    return static_cast<double>(p.sensor[(row + y) * p.width + column + x].y);
+  };
+  for (const auto& [x, y] : {std::pair(1, 0), {-1, 0}, {0, 1}, {0, -1}})
+    if (!(depth(x, y) > 0) || std::abs(depth(x, y) - depth(0, 0)) > 0.05 * depth(0, 0))
+      return Vector6::Zero();
+  Eigen::Matrix3d rays;
+  rays << (ray_of(p, column + 1, row) - ray_of(p, column - 1, row)).transpose(),
+      (ray_of(p, column, row + 1) - ray_of(p, column, row - 1)).transpose(),
+      ray_of(p, column, row).transpose();
+  const Eigen::Vector3d plane = rays.lu().solve(Eigen::Vector3d(
+      1 / depth(1, 0) - 1 / depth(-1, 0), 1 / depth(0, 1) - 1 / depth(0, -1), 1 / depth(0, 0)));
+  const Eigen::Vector3d S = depth(0, 0) * ray_of(p, column, row);
+  const Eigen::Vector3d m = pose.rotation() * to_eigen(p.points[i].normal);
+  const Eigen::Vector3d n = m.dot(S) * plane;
+  return Vector6::NullaryExpr([&](Eigen::Index axis) {
+    const auto distance = [&](double step) {
+      const Pose motion = small_motion(step * Vector6::Unit(axis));
+      return (motion.rotation() * n).dot(motion * Y - S) / kNoise.sigma(Y.z());
+    };
+    return (distance(kStep) - distance(-kStep)) / (2 * kStep);
+  });
+}
+
+/// The product of both, with both orders alike.
+Matrix6 crossed(const Vector6& one, const Vector6& other) {
+  return (one * other.transpose() + other * one.transpose()) / 2;
+}
+
 /// The oracle, over every `stride`-th pixel: every derivative is a central difference. What a keyframe saw
-/// and the frame does not takes no part in the photometric term.
-Sums reference_sums(const Pair& p, const Pose& pose, int stride, bool from_keyframe) {
-  constexpr double kStep = 1e-6;
+/// and the frame does not takes no part in the photometric term. `evidence`: each product of derivatives has
+/// one from the frame and one from the points.
+Sums reference_sums(const Pair& p, const Pose& pose, int stride, bool from_keyframe, bool evidence) {
   Sums s;
   for (int i = 0; i < p.width * p.height; i += stride) {
     const Residuals r = residuals_of(p, i, pose, Vector6::Zero());
@@ -146,14 +214,16 @@ Sums reference_sums(const Pair& p, const Pose& pose, int stride, bool from_keyfr
       const double w = certainty * weight_of(std::sqrt(certainty) * r.colour, kVarianceColour);
       s.squares_colour += w * r.colour * r.colour;
       s.pixels_colour += 1;
-      s.normal += w / kVarianceColour * J_colour * J_colour.transpose();
+      const Vector6 other = evidence ? colour_by_points(p, i, pose) : J_colour;
+      s.normal += w / kVarianceColour * crossed(J_colour, other);
       s.slope += w / kVarianceColour * r.colour * J_colour;
     }
     if (!r.measured) continue;
     const double v = weight_of(r.depth, kVarianceDepth);
     s.squares_depth += v * r.depth * r.depth;
     s.pixels_depth += 1;
-    s.normal += kBalance * v / kVarianceDepth * J_depth * J_depth.transpose();
+    const Vector6 other = evidence ? depth_by_frame(p, i, pose) : J_depth;
+    s.normal += kBalance * v / kVarianceDepth * crossed(J_depth, other);
     s.slope += kBalance * v / kVarianceDepth * r.depth * J_depth;
   }
   return s;
@@ -211,11 +281,13 @@ namespace {
 struct SumsCase {
   int width, height, stride;
   bool from_keyframe = false;
+  bool evidence = false;
 };
 
 void check_sums(const SumsCase& size) {
   gpu::Device& device = testing::device();
-  const gpu::Pass<passes::align_sums> pass(device, 64, {.FROM_KEYFRAME = size.from_keyframe ? 1u : 0u});
+  const gpu::Pass<passes::align_sums> pass(device, 64,
+                                           {.FROM_KEYFRAME = size.from_keyframe, .CROSSED = size.evidence});
   const Pair p = make_pair(size.width, size.height);
   const auto strips = static_cast<uint32_t>(p.points.size() / (size.stride * glsl::ALIGN_STRIP) + 1);
   const Pose base = small_motion(Vector6::Constant(0.3)),
@@ -249,7 +321,7 @@ void check_sums(const SumsCase& size) {
   recorder.submit();
   const auto written = partial.download(kFirst + count);
   const Sums got = add_up({written.begin() + kFirst, written.end()});
-  Sums want = reference_sums(p, pose, size.stride, size.from_keyframe);
+  Sums want = reference_sums(p, pose, size.stride, size.from_keyframe, size.evidence);
   want.normal *= 0.5;
   want.slope *= 0.5;
   CHECK(got.pixels_colour == want.pixels_colour);
@@ -264,15 +336,24 @@ void check_sums(const SumsCase& size) {
 }  // namespace
 
 TEST_CASE("the sums of a Gauss-Newton step agree with differences of the residuals") {
-  for (SumsCase size :
-       {SumsCase{2, 2, 1}, {2, 2, 3}, {7, 5, 1}, {64, 48, 1}, {83, 61, 1}, {83, 61, 3}, {64, 48, 4}}) {
-    for (const bool from_keyframe : {false, true}) {
-      CAPTURE(size.width);
-      CAPTURE(size.stride);
-      CAPTURE(from_keyframe);
-      size.from_keyframe = from_keyframe;
-      check_sums(size);
-    }
+  for (SumsCase size : {SumsCase{2, 2, 1},
+                        {2, 2, 3},
+                        {3, 3, 1},
+                        {7, 5, 1},
+                        {64, 48, 1},
+                        {83, 61, 1},
+                        {83, 61, 3},
+                        {64, 48, 4}}) {
+    for (const bool from_keyframe : {false, true})
+      for (const bool evidence : {false, true}) {
+        CAPTURE(size.width);
+        CAPTURE(size.stride);
+        CAPTURE(from_keyframe);
+        CAPTURE(evidence);
+        size.from_keyframe = from_keyframe;
+        size.evidence = evidence;
+        check_sums(size);
+      }
   }
 }
 

@@ -242,3 +242,42 @@ TEST_CASE("tracking says what the map explains and how certain the pose is") {
   };
   CHECK(least(open) < 0.1 * least(fits));
 }
+
+namespace {
+
+/// The frame with noise of this size on its colour (of 255) and depth (metres).
+testing::Seen noisy(testing::Seen seen, double colour, double depth) {
+  std::normal_distribution<double> normal;
+  for (uint8_t& value : seen.colour)
+    value = static_cast<uint8_t>(std::clamp(std::lround(value + colour * normal(generator())), 0L, 255L));
+  for (float& z : seen.depth)
+    if (z > 0) z += static_cast<float>(depth * normal(generator()));
+  return seen;
+}
+
+}  // namespace
+
+TEST_CASE("noise is no evidence: neither as texture nor as relief") {
+  gpu::Device& device = testing::device();
+  Rasteriser rasteriser(device);
+  TrackingLoss loss(device);
+  GaussianMap map(device);
+  GaussianCloud grey = testing::wall(160, 120, 90);
+  for (Eigen::Vector3f& mean : grey.means) mean *= 2 / mean.z();
+  std::fill(grey.sh.begin(), grey.sh.end(), 0.0f);
+  const Camera camera = testing::wall_camera();
+  // What is known of the position along the wall beside what is known of that across it, which depth tells.
+  const auto known_along = [&](const GaussianCloud& cloud) {
+    map.assign(cloud);
+    const testing::Seen seen(rasteriser.render(map, camera));
+    GaussNewtonTracker tracker(device);
+    const SensorFrame keyframe(device, noisy(seen, 3, 0.005).view());
+    tracker.hold(0, 1, keyframe, camera.intrinsics);
+    const SensorFrame frame(device, noisy(seen, 3, 0.005).view());
+    const TrackingResult result =
+        tracker.track(rasteriser, loss, map, frame, camera, {}, std::span(&camera, 1));
+    const Matrix6& H = result.evidence.information;
+    return std::max(H(0, 0), H(1, 1)) / H(2, 2);
+  };
+  CHECK(known_along(grey) < 0.02 * known_along(testing::wall(160, 120, 90)));
+}
