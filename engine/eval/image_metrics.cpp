@@ -46,14 +46,26 @@ double ssim_sum(const cv::Mat& x, const cv::Mat& y) {
   return sum;
 }
 
+double psnr_of(double squared_sum, std::size_t values) {
+  if (!std::isfinite(squared_sum)) throw InputError("PSNR: an image holds NaN or infinite values");
+  const double mean = squared_sum / static_cast<double>(values);
+  return mean == 0 ? std::numeric_limits<double>::infinity() : -10 * std::log10(mean);
+}
+
 }  // namespace
 
 double psnr(const cv::Mat& image, const cv::Mat& reference) {
   require_comparable("PSNR", image, reference);
-  const double squared_sum = cv::norm(image, reference, cv::NORM_L2SQR);
-  if (!std::isfinite(squared_sum)) throw InputError("PSNR: an image holds NaN or infinite values");
-  const double mean = squared_sum / (static_cast<double>(image.total()) * image.channels());
-  return mean == 0 ? std::numeric_limits<double>::infinity() : -10 * std::log10(mean);
+  return psnr_of(cv::norm(image, reference, cv::NORM_L2SQR), image.total() * image.channels());
+}
+
+std::optional<double> psnr(const cv::Mat& image, const cv::Mat& reference, const cv::Mat& mask) {
+  require_comparable("PSNR", image, reference);
+  if (mask.size() != image.size() || mask.type() != CV_8UC1) throw InputError("PSNR: the mask does not fit");
+  const int pixels = cv::countNonZero(mask);
+  if (pixels == 0) return std::nullopt;
+  return psnr_of(cv::norm(image, reference, cv::NORM_L2SQR, mask),
+                 static_cast<std::size_t>(pixels) * image.channels());
 }
 
 double ssim(const cv::Mat& image, const cv::Mat& reference) {

@@ -10,6 +10,9 @@ namespace surefield {
 /// do not match, are empty or hold NaN.
 double psnr(const cv::Mat& image, const cv::Mat& reference);
 
+/// The same over the pixels where `mask` (CV_8U) is not 0; nullopt where it is 0 everywhere.
+std::optional<double> psnr(const cv::Mat& image, const cv::Mat& reference, const cv::Mat& mask);
+
 /// Structural similarity of two float images (as for psnr()), the mean over all pixels and channels: 11 x 11
 /// Gaussian window of sigma 1.5, zero outside of the image, C1 = 0.01^2, C2 = 0.03^2, which is the SSIM of
 /// the mapping loss. 1 where they are equal. Throws InputError as psnr() does.

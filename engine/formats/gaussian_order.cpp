@@ -68,6 +68,7 @@ GaussianCloud select(const GaussianCloud& cloud, const std::vector<std::size_t>&
     selected.opacity_logits.push_back(cloud.opacity_logits[i]);
     selected.sh.insert(selected.sh.end(), sh, sh + stride);
     selected.uncertainty.push_back(cloud.uncertainty[i]);
+    selected.sampling.push_back(cloud.sampling[i]);
   }
   return selected;
 }

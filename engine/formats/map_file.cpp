@@ -37,6 +37,22 @@ bool is_spz(const std::filesystem::path& file) {
   return file.extension() == ".spz";
 }
 
+// Of the pixel^2 that a Gaussian was seen with, what a file without GaussianCloud::sampling adds to its
+// variances: less than our own renders add, since its readers add 0.3 pixels^2 of theirs
+// (docs/experiments.md).
+constexpr float kWidening = 0.1f;
+
+/// The Gaussians for a format that has no place for their sampling, so that there are no seams between them
+/// closer up either.
+GaussianCloud widened(GaussianCloud cloud) {
+  for (std::size_t i = 0; i < cloud.size(); ++i) {
+    const float more = kWidening * cloud.sampling[i] * cloud.sampling[i];
+    if (more > 0)
+      cloud.log_scales[i] = 0.5f * ((2 * cloud.log_scales[i].array()).exp() + more).log().matrix();
+  }
+  return cloud;
+}
+
 }  // namespace
 
 const std::map<std::string, MapFormat>& map_formats() {
@@ -79,15 +95,16 @@ MapFile read_map(const std::filesystem::path& file) {
 }
 
 void write_map(const std::filesystem::path& file, const GaussianCloud& cloud, MapFormat format) {
+  if (!cloud.is_consistent()) throw UsageError("write_map: the arrays of the cloud differ in length");
   switch (format) {
     case MapFormat::Ply:
       return write_ply(file, cloud);
     case MapFormat::CompressedPly:
-      return write_compressed_ply(file, cloud);
+      return write_compressed_ply(file, widened(cloud));
     case MapFormat::Spz:
-      return write_spz(file, cloud);
+      return write_spz(file, widened(cloud));
     case MapFormat::Glb:
-      return write_glb(file, cloud);
+      return write_glb(file, widened(cloud));
     case MapFormat::Points:
       return write_point_cloud(file, cloud);
   }

@@ -18,7 +18,7 @@ struct GaussianLayout {
   int sh_degree = 0;
   std::vector<std::size_t>
       columns;  ///< mean, log scale, rotation, opacity, then SH coefficient by coefficient
-  std::optional<std::size_t> uncertainty;
+  std::optional<std::size_t> uncertainty, sampling;
 };
 
 std::size_t column(const std::filesystem::path& file, const PlyElement& vertices, const std::string& name) {
@@ -67,16 +67,16 @@ GaussianLayout find_layout(const std::filesystem::path& file, const PlyElement& 
     for (int channel = 0; channel < 3; ++channel) add("f_rest_" + std::to_string(channel * rest + k));
   }
   layout.uncertainty = vertices.find("uncertainty");
+  layout.sampling = vertices.find("sampling");
   return layout;
 }
 
-void append(const std::vector<float>& values, float uncertainty, GaussianCloud& cloud) {
+void append(const std::vector<float>& values, GaussianCloud& cloud) {
   cloud.means.emplace_back(values[0], values[1], values[2]);
   cloud.log_scales.emplace_back(values[3], values[4], values[5]);
   cloud.rotations.emplace_back(values[6], values[7], values[8], values[9]);
   cloud.opacity_logits.push_back(values[10]);
   cloud.sh.insert(cloud.sh.end(), values.begin() + 11, values.end());
-  cloud.uncertainty.push_back(uncertainty);
 }
 
 }  // namespace
@@ -97,8 +97,12 @@ PlyCloud read_ply(const std::filesystem::path& file) {
     for (std::size_t k = 0; k < values.size(); ++k) {
       values[k] = static_cast<float>(record.values[layout.columns[k]]);
     }
-    const double uncertainty = layout.uncertainty ? record.values[*layout.uncertainty] : 0;
-    append(values, static_cast<float>(uncertainty), result.cloud);
+    append(values, result.cloud);
+    const auto extra = [&](const std::optional<std::size_t>& property) {
+      return property ? static_cast<float>(record.values[*property]) : 0.0f;
+    };
+    result.cloud.uncertainty.push_back(extra(layout.uncertainty));
+    result.cloud.sampling.push_back(extra(layout.sampling));
   }
   const LeftOutGaussians left_out = keep_usable(result.cloud);
   result.dropped = left_out.broken;

@@ -26,7 +26,8 @@ void write_header(std::ostream& stream, const GaussianCloud& cloud) {
   property("opacity");
   properties("scale_", 3);
   properties("rot_", 4);
-  property("uncertainty");  // not part of the usual layout; other programs go past it
+  for (const char* name : {"uncertainty", "sampling"})
+    property(name);  // not part of the usual layout; other programs go past them
   stream << "end_header\n";
 }
 
@@ -45,6 +46,7 @@ void fill_record(const GaussianCloud& cloud, std::size_t i, std::vector<float>& 
   record.insert(record.end(), cloud.log_scales[i].begin(), cloud.log_scales[i].end());
   record.insert(record.end(), cloud.rotations[i].begin(), cloud.rotations[i].end());
   record.push_back(cloud.uncertainty[i]);
+  record.push_back(cloud.sampling[i]);
 }
 
 }  // namespace

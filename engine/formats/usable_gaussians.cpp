@@ -30,6 +30,8 @@ LeftOutGaussians keep_usable(GaussianCloud& cloud) {
       if (value == -kInfinity) value = kFlatLogScale;
     float& uncertainty = cloud.uncertainty[i];
     if (uncertainty == kInfinity) uncertainty = std::numeric_limits<float>::max();
+    float& sampling = cloud.sampling[i];
+    if (!(sampling >= 0 && std::isfinite(sampling))) sampling = 0;  // not known
     if (is_finite(cloud, i) && std::isfinite(uncertainty)) {
       usable.push_back(i);
     } else {

@@ -112,6 +112,7 @@ GaussianCloud spawn_gaussians(const Frame& frame, const Camera& camera, const Re
     cloud.rotations.emplace_back(q.w(), q.x(), q.y(), q.z());
     cloud.opacity_logits.push_back(logit);
     cloud.uncertainty.push_back(0.0f);
+    cloud.sampling.push_back(static_cast<float>(z / std::sqrt(k.fx * k.fy)));
     for (int c = 0; c < 3; ++c)
       cloud.sh.push_back((gains[c] * static_cast<float>(rgb[c]) / 255 - 0.5f) / kShBase);
   }

@@ -48,6 +48,7 @@ GaussianMap::GaussianMap(gpu::Device& device)
       opacity_logits(device, "opacity logits"),
       sh(device, "spherical harmonics"),
       uncertainty(device, "uncertainties"),
+      sampling(device, "sampling"),
       steps(device, "Adam steps"),
       densification(device, "densification statistics"),
       count(device, "Gaussian count"),
@@ -63,6 +64,7 @@ void GaussianMap::reserve(uint32_t capacity) {
   reserve_parameter(opacity_logits, blocks);
   reserve_parameter(sh, blocks * sh_coefficients(sh_degree_));
   uncertainty.reserve(blocks, true);
+  sampling.reserve(blocks, true);
   steps.reserve(blocks, true);
   densification.reserve(blocks, true);
 }
@@ -100,6 +102,7 @@ void GaussianMap::write(const GaussianCloud& cloud, uint32_t first) {
                   std::span(reinterpret_cast<const vec3*>(cloud.sh.data()), cloud.size() * coefficients),
                   first * coefficients);
   uncertainty.upload(std::span(cloud.uncertainty), first);
+  sampling.upload(std::span(cloud.sampling), first);
   clear(recorder, steps, first, cloud.size());
   clear(recorder, densification, first, cloud.size());
   recorder.submit();
@@ -115,6 +118,7 @@ GaussianCloud GaussianMap::download() const {
   opacity_logits.value.buffer().download(cloud.opacity_logits.data(), 0, size_ * sizeof(float));
   sh.value.buffer().download(cloud.sh.data(), 0, cloud.sh.size() * sizeof(float));
   uncertainty.buffer().download(cloud.uncertainty.data(), 0, size_ * sizeof(float));
+  sampling.buffer().download(cloud.sampling.data(), 0, size_ * sizeof(float));
   return cloud;
 }
 
@@ -124,7 +128,7 @@ uint64_t GaussianMap::parameter_bytes() const {
 
 uint32_t GaussianMap::record_words() const {
   const auto parameters = static_cast<uint32_t>(parameter_bytes() / sizeof(uint32_t));
-  return 3 * parameters + 4;  // each with two moments; uncertainty, steps and statistics
+  return 3 * parameters + 5;  // each with two moments; sampling, uncertainty, steps and statistics
 }
 
 std::vector<uint32_t> GaussianMap::read_records(uint32_t first) {
@@ -173,6 +177,7 @@ void append_to(GaussianCloud& cloud, std::span<const uint32_t> records, uint32_t
     take(&cloud.rotations[before + i], 4);
     take(&cloud.opacity_logits[before + i], 1);
     take(&cloud.sh[(before + i) * sh_floats], sh_floats);
+    take(&cloud.sampling[before + i], 1);
     take(&cloud.uncertainty[before + i], 1);
   }
 }

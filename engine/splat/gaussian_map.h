@@ -65,6 +65,7 @@ class GaussianMap {
   Parameter<float> opacity_logits;
   Parameter<glsl::vec3> sh;              ///< sh_coefficients(sh_degree()) per Gaussian
   gpu::Array<float> uncertainty;         ///< as in GaussianCloud; that of a newborn Gaussian is 0
+  gpu::Array<float> sampling;            ///< as in GaussianCloud
   gpu::Array<glsl::uint> steps;          ///< Adam steps taken by each Gaussian
   gpu::Array<glsl::vec2> densification;  ///< sum of the norms of the screen gradient, times seen
   gpu::Array<glsl::uint> count;          ///< size(), for passes that read it on the device
@@ -79,7 +80,8 @@ class GaussianMap {
   DepthModel depth_model_ = DepthModel::Plane;
 };
 
-/// Adds the parameters and uncertainties of records of GaussianMap to a cloud of the same SH degree.
+/// Adds the parameters, sampling and uncertainties of records of GaussianMap to a cloud of the same SH
+/// degree.
 void append_to(GaussianCloud& cloud, std::span<const uint32_t> records, uint32_t record_words);
 
 template <class Visit>
@@ -90,6 +92,7 @@ void GaussianMap::for_each_array(Visit&& visit) {
   visit(rotations.value, 4, false);
   visit(opacity_logits.value, 1, false);
   visit(sh.value, sh_words, false);
+  visit(sampling, 1, false);
   visit(uncertainty, 1, true);
   const auto moments = [&](auto& parameter, uint32_t words) {
     visit(parameter.first_moment, words, true);

@@ -171,7 +171,8 @@ void Rasteriser::record_backward(gpu::Recorder& recorder, GaussianMap& map, cons
                               .sh_gradients = sh_gradients,
                               .pose_partials = pose_partials_,
                               .status = lists.status,
-                              .densification = map.densification},
+                              .densification = map.densification,
+                              .sampling = map.sampling},
                              {.weight_isotropy = isotropy.weight, .isotropy_epsilon = isotropy.epsilon});
   recorder.dispatch(
       reduce_pose_, 1,
@@ -196,7 +197,8 @@ void Rasteriser::record_backward_pose(gpu::Recorder& recorder, const GaussianMap
                      .log_scales = map.log_scales.value,
                      .rotations = map.rotations.value,
                      .sh = map.sh.value,
-                     .pose_partials = pose_partials_},
+                     .pose_partials = pose_partials_,
+                     .sampling = map.sampling},
                     {});
   recorder.dispatch(
       reduce_pose_, 1,

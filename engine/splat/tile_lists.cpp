@@ -147,7 +147,8 @@ passes::project_splats::Bindings TileLists::projection_of(const GaussianMap& map
           .uncertainty = map.uncertainty,
           .visible_count = visible_count,
           .visible_ids = visible_ids,
-          .status = status};
+          .status = status,
+          .sampling = map.sampling};
 }
 
 void TileLists::record_projection(gpu::Recorder& recorder, const GaussianMap& map,

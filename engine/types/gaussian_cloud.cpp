@@ -4,7 +4,7 @@ namespace surefield {
 
 bool GaussianCloud::is_consistent() const {
   return log_scales.size() == size() && rotations.size() == size() && opacity_logits.size() == size() &&
-         uncertainty.size() == size() &&
+         uncertainty.size() == size() && sampling.size() == size() &&
          sh.size() == size() * static_cast<std::size_t>(sh_coefficients(sh_degree)) * 3;
 }
 
@@ -15,6 +15,7 @@ void GaussianCloud::resize(std::size_t count) {
   opacity_logits.resize(count, 0.0f);
   sh.resize(count * static_cast<std::size_t>(sh_coefficients(sh_degree)) * 3, 0.0f);
   uncertainty.resize(count, 0.0f);
+  sampling.resize(count, 0.0f);
 }
 
 }  // namespace surefield

@@ -24,6 +24,9 @@ struct GaussianCloud {
   std::vector<float> sh;
   /// Mean squared error of the depth where the Gaussian dominates, m^2 (paper eq. 13); 0 where not known.
   std::vector<float> uncertainty;
+  /// Width in the world of a pixel of the view that saw it from nearest, metres; 0: not known. Closer up or
+  /// in a finer image than that, a Gaussian is drawn with as much of its neighbours as it was seen with.
+  std::vector<float> sampling;
 
   std::size_t size() const { return means.size(); }
 

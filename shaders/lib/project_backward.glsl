@@ -35,7 +35,8 @@ vec3 direction_gradient(uint i, vec3 direction, vec3 g_colour) {
 }
 
 /// `g_direction`: direction_gradient() of this Gaussian.
-ProjectionGradient project_backward(CameraState c, vec3 mean, mat3 V, Splat s, SplatGradient g, vec3 g_direction) {
+ProjectionGradient project_backward(CameraState c, vec3 mean, float sampling, mat3 V, Splat s, SplatGradient g,
+                                    vec3 g_direction) {
   const vec3 x_c = to_camera(c, mean);
   const Perspective p = perspective_of(c, x_c);
   const float inverse_z = 1 / x_c.z;
@@ -45,7 +46,7 @@ ProjectionGradient project_backward(CameraState c, vec3 mean, mat3 V, Splat s, S
   vec3 g_camera = vec3(g_image, -dot(g_image, x_c.xy) * inverse_z + g.depth);
   const vec3 light = g_camera;
 
-  // Through the covariance: Sigma_2 = A A^T + BLUR I, A = J V.
+  // Through the covariance: Sigma_2 = A A^T + blur I, A = J V.
   vec3 row0, row1;
   image_axes(p, V, row0, row1);
   vec3 G = covariance_gradient(s.conic, g.second);
@@ -66,6 +67,7 @@ ProjectionGradient project_backward(CameraState c, vec3 mean, mat3 V, Splat s, S
   const vec2 slope_by_x = mix(-p.focal_over_z * inverse_z, vec2(0), vec2(p.clamped));
   g_camera.xy += g_slope * slope_by_x;
   g_camera.z += dot(g_slope, slope_by_z) - dot(g_focal, p.focal_over_z) * inverse_z;
+  g_camera.z += (G.x + G.z) * blur_of(c, sampling, x_c.z).y;
 
   ProjectionGradient result;
   result.axes = transpose(mat3(p.focal_over_z.x * g_row0, p.focal_over_z.y * g_row1,

@@ -1,7 +1,7 @@
 // The EWA projection of a Gaussian (paper eq. 1 and 2; docs/method.md, "Forward"). Needs splat_types.h, quaternion.glsl.
 
 const float NEAR_PLANE = 0.01;      // metres
-const float BLUR = 0.3;             // pixels^2 added to the 2D covariance
+const float BLUR = 0.3;             // pixels^2 added to the 2D covariance, of the pixels that the Gaussian was seen with
 const float TANGENT_MARGIN = 1.3;   // x/z is clamped to this times the tangent of the image border
 const float ALPHA_MIN = 1.0 / 255.0;
 const float ALPHA_MAX = 0.99;
@@ -46,7 +46,14 @@ mat3 camera_axes(CameraState c, vec4 rotation, vec3 log_scale) {
   return axes;
 }
 
-/// The rows of A = J V (2 x 3); Sigma_2 = A A^T + BLUR I.
+/// The pixels^2 that are added to the 2D covariance at depth z, and their derivative by z: where pixels are finer in the world
+/// than the finest that the Gaussian was seen with, as many of those, so that what covers a surface there covers it here.
+vec2 blur_of(CameraState c, float sampling, float z) {
+  const float finer = sampling * sampling * c.fx * c.fy / (z * z);
+  return finer > 1 ? BLUR * finer * vec2(1, -2 / z) : vec2(BLUR, 0);
+}
+
+/// The rows of A = J V (2 x 3); Sigma_2 = A A^T + blur I.
 void image_axes(Perspective p, mat3 V, out vec3 row0, out vec3 row1) {
   const mat3 rows = transpose(V);
   row0 = p.focal_over_z.x * rows[0] + p.slope.x * rows[2];
@@ -54,8 +61,8 @@ void image_axes(Perspective p, mat3 V, out vec3 row0, out vec3 row1) {
 }
 
 /// The 2D covariance (xx, xy, yy).
-vec3 covariance_2d(vec3 row0, vec3 row1) {
-  return vec3(dot(row0, row0) + BLUR, dot(row0, row1), dot(row1, row1) + BLUR);
+vec3 covariance_2d(vec3 row0, vec3 row1, float blur) {
+  return vec3(dot(row0, row0) + blur, dot(row0, row1), dot(row1, row1) + blur);
 }
 
 /// The slope of the depth over the footprint: the mean of z given u and v, where (u, v, z) is distributed as the projected

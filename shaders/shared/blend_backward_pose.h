@@ -19,5 +19,6 @@
   READ(7, vec3, log_scales)                  \
   READ(8, vec4, rotations)                   \
   READ(9, vec3, sh)                          \
-  WRITE(10, PoseGradient, pose_partials)
+  WRITE(10, PoseGradient, pose_partials)     \
+  READ(11, float, sampling)
 #include "declare_pass.h"

@@ -22,5 +22,6 @@
   WRITE(13, vec3, sh_gradients)                  \
   WRITE(14, PoseGradient, pose_partials)         \
   READ(15, RenderStatus, status)                 \
-  UPDATE(16, vec2, densification) /* sum of the norm of the screen gradient, times seen */
+  UPDATE(16, vec2, densification) /* sum of the norm of the screen gradient, times seen */ \
+  UPDATE(17, float, sampling)    /* finer where a pixel is that it had a part in */
 #include "declare_pass.h"

@@ -19,5 +19,6 @@
   READ(9, float, uncertainty)              \
   READ(10, uint, visible_count)            \
   READ(11, uint, visible_ids)              \
-  UPDATE(12, RenderStatus, status)
+  UPDATE(12, RenderStatus, status)         \
+  READ(13, float, sampling)
 #include "declare_pass.h"

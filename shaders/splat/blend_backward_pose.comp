@@ -33,7 +33,7 @@ void main() {
       const vec3 mean = means[id];
       const vec3 g_direction = direction_gradient(id, mean - camera_centre, mix(total.colour, vec3(0), equal(my.colour, vec3(0))));
       const ProjectionGradient g =
-          project_backward(c, mean, camera_axes(c, rotations[id], log_scales[id]), my, total, g_direction);
+          project_backward(c, mean, sampling[id], camera_axes(c, rotations[id], log_scales[id]), my, total, g_direction);
       pose.rotation += g.pose.rotation;
       pose.translation += g.pose.translation;
     }

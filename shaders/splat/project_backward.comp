@@ -37,7 +37,7 @@ void main() {
     const vec3 g_colour = mix(sum.colour, vec3(0), equal(s.colour, vec3(0)));
     const vec3 direction = mean + transpose(camera_rotation(c)) * c.translation;
     const ProjectionGradient g =
-        project_backward(c, mean, V, s, sum, direction_gradient(id, direction, g_colour));
+        project_backward(c, mean, sampling[id], V, s, sum, direction_gradient(id, direction, g_colour));
     pose = g.pose;
 
     GaussianGradient result;
@@ -75,6 +75,7 @@ void main() {
     }
     const vec2 g_centre = centre_gradient(s, sum);
     // In units of the image's half size, as 3DGS counts it, so that thresholds do not depend on the resolution.
+    if (sum.exponent != 0) sampling[id] = min(sampling[id], s.depth * inversesqrt(c.fx * c.fy));
     densification[id] += vec2(length(g_centre * 0.5 * vec2(c.width, c.height)), 1);
   }
   [[unroll]] for (uint bit = 0; bit < 6; ++bit) {

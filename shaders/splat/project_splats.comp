@@ -32,7 +32,7 @@ void main() {
 
   Splat s;
   s.centre = p.focal_over_z * x_c.xy + vec2(c.cx, c.cy);
-  s.conic = inverse_2d(covariance_2d(row0, row1));
+  s.conic = inverse_2d(covariance_2d(row0, row1, blur_of(c, sampling[i], x_c.z).x));
   const vec3 camera_centre = -(transpose(camera_rotation(c)) * c.translation);
   s.colour = max(sh_colour(i, normalize(mean - camera_centre)), vec3(0));
   s.depth = x_c.z;

@@ -41,6 +41,15 @@ TEST_CASE("PSNR of known differences") {
   CHECK(psnr(one, black) == doctest::Approx(10 * std::log10(60.0)));
   CHECK(psnr(cv::Mat(1, 1, CV_32FC1, cv::Scalar(1)), cv::Mat(1, 1, CV_32FC1, cv::Scalar(0))) == 0);
   CHECK(std::isinf(psnr(black, black)));
+
+  // Over the pixels of a mask alone.
+  cv::Mat mask(one.size(), CV_8UC1, cv::Scalar(0));
+  CHECK_FALSE(psnr(one, black, mask).has_value());
+  mask.setTo(1);
+  CHECK(*psnr(one, black, mask) == doctest::Approx(psnr(one, black)));
+  mask.at<uint8_t>(0, 0) = 0;
+  CHECK(*psnr(one, black, mask) != doctest::Approx(psnr(one, black)));
+  CHECK_THROWS_AS(psnr(one, black, cv::Mat(1, 1, CV_8UC1)), InputError);
 }
 
 TEST_CASE("images that cannot be compared are refused") {

@@ -22,6 +22,7 @@ inline GaussianCloud random_cloud(std::size_t count, int sh_degree) {
     for (float& x : cloud.rotations[i]) x = 3 * value(random);
     cloud.opacity_logits[i] = 6 * value(random);
     cloud.uncertainty[i] = std::abs(value(random));
+    cloud.sampling[i] = std::abs(value(random));
   }
   for (float& x : cloud.sh) x = 0.99f * value(random);
   return cloud;

@@ -35,6 +35,21 @@ TEST_CASE("maps are read in the format of their content and written in that of t
   CHECK(contains(input_error([&] { read_map(folder / "none.ply"); }), "no such file"));
 }
 
+TEST_CASE("what has no place for the sampling of Gaussians gets them a little wider") {
+  const TemporaryFolder folder;
+  GaussianCloud cloud = random_cloud(2, 0);
+  cloud.log_scales.assign(2, Eigen::Vector3f::Constant(std::log(0.01f)));
+  cloud.sampling = {0.02f, 0};
+  write_map(folder / "map.ply", cloud);
+  CHECK(read_map(folder / "map.ply").cloud.log_scales == cloud.log_scales);
+  write_map(folder / "map.spz", cloud);
+  const GaussianCloud read = read_map(folder / "map.spz").cloud;
+  CHECK(std::exp(2 * read.log_scales[0].x()) ==
+        doctest::Approx(0.01 * 0.01 + 0.1 * 0.02 * 0.02).epsilon(0.08));
+  CHECK(std::exp(read.log_scales[1].x()) == doctest::Approx(0.01).epsilon(0.04));
+  CHECK(read.sampling == std::vector<float>{0, 0});
+}
+
 namespace {
 
 std::string bytes_of(const std::vector<float>& values) {

@@ -19,7 +19,7 @@ namespace {
 bool equal(const GaussianCloud& a, const GaussianCloud& b) {
   return a.sh_degree == b.sh_degree && a.means == b.means && a.log_scales == b.log_scales &&
          a.rotations == b.rotations && a.opacity_logits == b.opacity_logits && a.sh == b.sh &&
-         a.uncertainty == b.uncertainty;
+         a.uncertainty == b.uncertainty && a.sampling == b.sampling;
 }
 
 constexpr const char* kAsciiHeader =
@@ -69,7 +69,7 @@ TEST_CASE("the layout on disk is the usual one: f_rest is channel-major, floats 
   const std::size_t data = bytes.find(end) + end.size();
   std::vector<float> values((bytes.size() - data) / sizeof(float));
   std::memcpy(values.data(), bytes.data() + data, values.size() * sizeof(float));
-  REQUIRE(values.size() == 3 + 3 + 3 + 9 + 1 + 3 + 4 + 1);
+  REQUIRE(values.size() == 3 + 3 + 3 + 9 + 1 + 3 + 4 + 2);
   CHECK(values[0] == cloud.means[0].x());
   CHECK(std::vector<float>(values.begin() + 3, values.begin() + 18) ==
         std::vector<float>{0, 0, 0, 0, 10, 20, 1, 2, 3, 11, 12, 13, 21, 22, 23});
@@ -77,7 +77,9 @@ TEST_CASE("the layout on disk is the usual one: f_rest is channel-major, floats 
   CHECK(values[19] == cloud.log_scales[0].x());
   CHECK(values[22] == cloud.rotations[0].x());
   CHECK(values[26] == cloud.uncertainty[0]);
-  CHECK(contains(bytes.substr(0, data), "property float rot_3\nproperty float uncertainty\nend_header\n"));
+  CHECK(values[27] == cloud.sampling[0]);
+  CHECK(contains(bytes.substr(0, data),
+                 "property float rot_3\nproperty float uncertainty\nproperty float sampling\nend_header\n"));
   CHECK(bytes.substr(0, 36) == "ply\nformat binary_little_endian 1.0\n");
 }
 
@@ -94,6 +96,7 @@ TEST_CASE("properties may come in any order and type, others are ignored, ASCII 
   CHECK(read.cloud.log_scales[1] == Eigen::Vector3f(-1, -2, -3));
   CHECK(read.cloud.sh == std::vector<float>{0.1f, 0.2f, 0.3f, 0.4f, 0.5f, 0.6f});
   CHECK(read.cloud.uncertainty == std::vector<float>{0, 0});  // the file has none
+  CHECK(read.cloud.sampling == std::vector<float>{0, 0});
 }
 
 TEST_CASE(

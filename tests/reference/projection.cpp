@@ -100,6 +100,14 @@ void decide(Projection& projection, const Eigen::Vector3d& colour, const Intrins
   }
 }
 
+/// The pixels^2 on the diagonal of the 2D covariance: so many of the finest pixel that saw the Gaussian, and
+/// of the camera's at least.
+double blur_at(const Gaussians& gaussians, int index, const Intrinsics& k, double z,
+               const Settings& settings) {
+  const double sampling = gaussians.sampling.empty() ? 0 : gaussians.sampling[index];
+  return settings.blur * std::max(1.0, sampling * sampling * k.fx * k.fy / (z * z));
+}
+
 /// dL/dJ to the camera-frame mean.
 Eigen::Vector3d jacobian_backward(const Matrix23d& gradient, const Projection& projection,
                                   const Intrinsics& k, const Settings& settings) {
@@ -197,8 +205,8 @@ Projection project(const Gaussians& gaussians, int index, const Camera& camera, 
   const Matrix23d jacobian =
       projection_jacobian(projection.camera_mean, projection.decisions.tangent_clamp, k, settings);
   const Eigen::Matrix3d covariance = camera_covariance(gaussians, index, camera);
-  projection.covariance =
-      jacobian * covariance * jacobian.transpose() + settings.blur * Eigen::Matrix2d::Identity();
+  projection.covariance = jacobian * covariance * jacobian.transpose() +
+                          blur_at(gaussians, index, k, z, settings) * Eigen::Matrix2d::Identity();
   projection.conic = projection.covariance.inverse();
   if (settings.plane_depth)
     projection.slope = projection.conic * jacobian * covariance * Eigen::Vector3d::UnitZ();
@@ -230,7 +238,11 @@ void project_backward(const Gaussians& gaussians, int index, const Camera& camer
   const Eigen::Matrix2d image_gradient = upstream.covariance - (slope_part + slope_part.transpose()) / 2;
   const Matrix23d jacobian_gradient =
       2 * image_gradient * jacobian * covariance + h * covariance.col(2).transpose();
-  const Eigen::Vector3d full = light + jacobian_backward(jacobian_gradient, projection, k, settings);
+  // Where the blur follows the pixel's width in the world, it shrinks with 1 / z^2.
+  const double blur = blur_at(gaussians, index, k, p.z(), settings);
+  const double by_blur = blur > settings.blur ? -2 * blur / p.z() * image_gradient.trace() : 0;
+  const Eigen::Vector3d full = light + jacobian_backward(jacobian_gradient, projection, k, settings) +
+                               by_blur * Eigen::Vector3d::UnitZ();
   const Eigen::Matrix3d depth_part = jacobian.transpose() * h * Eigen::RowVector3d::UnitZ();
   const Eigen::Matrix3d covariance_gradient =
       jacobian.transpose() * image_gradient * jacobian + (depth_part + depth_part.transpose()) / 2;

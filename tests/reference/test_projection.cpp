@@ -50,8 +50,12 @@ TEST_CASE("Sigma2 is Sigma through the derivative of the pinhole projection, plu
         Eigen::Quaterniond(q[0], q[1], q[2], q[3]).normalized().toRotationMatrix();
     const Eigen::Vector3d variances = (2 * gaussians.log_scales[i]).array().exp();
     const Eigen::Matrix3d sigma = rotation * variances.asDiagonal() * rotation.transpose();
+    // 0.3 of the pixels that the Gaussian was seen with, or of these where they are wider in the world.
+    const double width =
+        projection.depth() / std::sqrt(scene.camera.intrinsics.fx * scene.camera.intrinsics.fy);
+    const double wider = std::max(1.0, gaussians.sampling[i] / width);
     const Eigen::Matrix2d expected =
-        jacobian * sigma * jacobian.transpose() + 0.3 * Eigen::Matrix2d::Identity();
+        jacobian * sigma * jacobian.transpose() + 0.3 * wider * wider * Eigen::Matrix2d::Identity();
     CHECK((projection.covariance - expected).norm() < 1e-8 * expected.norm());
     CHECK((projection.conic * projection.covariance - Eigen::Matrix2d::Identity()).norm() < 1e-10);
     CHECK((projection.mean - image_position()).norm() < 1e-12);

@@ -17,7 +17,10 @@ std::vector<double> to_double(const std::vector<float>& values) {
 }  // namespace
 
 Gaussians::Gaussians(const GaussianCloud& cloud)
-    : opacity_logits(to_double(cloud.opacity_logits)), sh_degree(cloud.sh_degree), sh(to_double(cloud.sh)) {
+    : opacity_logits(to_double(cloud.opacity_logits)),
+      sh_degree(cloud.sh_degree),
+      sh(to_double(cloud.sh)),
+      sampling(to_double(cloud.sampling)) {
   for (std::size_t i = 0; i < cloud.size(); ++i) {
     means.push_back(cloud.means[i].cast<double>());
     log_scales.push_back(cloud.log_scales[i].cast<double>());

@@ -21,7 +21,8 @@ struct Gaussians {
   std::vector<Eigen::Vector4d> rotations;   ///< quaternion w, x, y, z; not necessarily of unit length
   std::vector<double> opacity_logits;       ///< opacity = 1 / (1 + exp(-logit))
   int sh_degree = 0;                        ///< 0 to 3
-  std::vector<double> sh;  ///< sh[(i * sh_coefficients(sh_degree) + coefficient) * 3 + channel]
+  std::vector<double> sh;        ///< sh[(i * sh_coefficients(sh_degree) + coefficient) * 3 + channel]
+  std::vector<double> sampling;  ///< no parameter: metres; 0: not known
 
   Gaussians() = default;
 

@@ -50,6 +50,7 @@ std::vector<double> flat(std::initializer_list<glsl::vec3> list) {
 /// Gradients of the device, per class, flattened; and the pose's, from the full and from the tracking path.
 struct DeviceGradients {
   std::vector<double> means, log_scales, rotations, opacity_logits, sh, pose, tracking_pose;
+  std::vector<float> sampling;  ///< as the backward pass leaves it
 };
 
 DeviceGradients run_device(const reference::Scene& scene, const reference::ImageGradients& upstream,
@@ -100,6 +101,8 @@ DeviceGradients run_device(const reference::Scene& scene, const reference::Image
     for (double x : flat({v})) g.sh.push_back(x);
   auto pose = rasteriser.pose_gradient.download(1)[0];
   g.pose = flat({pose.rotation, pose.translation});
+  g.sampling = map.sampling.download(count);
+  map.sampling.upload(scene.cloud.sampling);  // that of the images above
   rasteriser.record_backward_pose(recorder, map, view, kind);
   recorder.submit();
   pose = rasteriser.pose_gradient.download(1)[0];
@@ -148,6 +151,15 @@ void compare_with_oracle(const reference::Scene& scene, Upstream which, PoseGrad
   check("rotations", got.rotations, flat_eigen(want.rotations), magnitude(got.log_scales));
   check("opacity", got.opacity_logits, want.opacity_logits);
   check("sh", got.sh, want.sh);
+  // A Gaussian that had a part in a pixel has been seen with pixels as fine as the camera's there.
+  const Intrinsics& k = scene.camera.intrinsics;
+  for (std::size_t i = 0; i < gaussians.size(); ++i) {
+    if (images.gaussian_edge[i]) continue;
+    const double width = (scene.camera.world_to_camera * gaussians.means[i]).z() / std::sqrt(k.fx * k.fy);
+    const double finest =
+        want.opacity_logits[i] != 0 ? std::min(width, gaussians.sampling[i]) : gaussians.sampling[i];
+    CHECK(got.sampling[i] == doctest::Approx(finest).epsilon(1e-5));
+  }
   std::vector<double> pose =
       flat_eigen(std::vector<Eigen::Vector3d>{want.pose_rotation, want.pose_translation});
   bool any_edge = false;

@@ -28,6 +28,7 @@ GaussianCloud row(int blocks, int sh_degree = 0) {
     cloud.rotations[i] = {1, x / 50, 0, 0};
     cloud.opacity_logits[i] = x / 10 - 1;
     cloud.uncertainty[i] = x / 7;
+    cloud.sampling[i] = x * 1e-6f;
   }
   for (std::size_t i = 0; i < cloud.sh.size(); ++i) cloud.sh[i] = static_cast<float>(i) / 97;
   return cloud;
@@ -103,6 +104,7 @@ TEST_CASE("the parts of a map on the device and in host memory make the whole cl
     CHECK(cloud.rotations[i] == all.rotations[was]);
     CHECK(cloud.opacity_logits[i] == all.opacity_logits[was]);
     CHECK(cloud.uncertainty[i] == all.uncertainty[was]);
+    CHECK(cloud.sampling[i] == all.sampling[was]);
     CHECK(std::equal(&cloud.sh[i * 12], &cloud.sh[i * 12] + 12, &all.sh[was * 12]));
   }
 }

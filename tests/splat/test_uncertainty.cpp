@@ -190,6 +190,9 @@ TEST_CASE("what is born of an uncertain Gaussian is not uncertain, what is kept 
   MapRebuild(device).rebuild(map, std::vector<uint32_t>{5u | glsl::SOURCE_KEPT, 0u | glsl::SOURCE_KEPT,
                                                         0u | glsl::SOURCE_CLONE, 1u | glsl::SOURCE_SPLIT});
   CHECK(map.download().uncertainty == std::vector<float>{0.125f, 0.5f, 0, 0});
+  // All of them are of surfaces that were seen from as near.
+  CHECK(map.download().sampling ==
+        std::vector<float>{cloud.sampling[2], cloud.sampling[0], cloud.sampling[0], cloud.sampling[1]});
   cloud.uncertainty.pop_back();
   CHECK_THROWS_AS(map.append(cloud), UsageError);
 }

@@ -116,7 +116,7 @@ TEST_CASE("export --web writes one page that holds everything, of a run and of a
   CHECK(run_of(alone)["keyframes"].empty());
   CHECK(run_of(alone)["sh_degree"] == 1);
   for (const char* part :
-       {"@MAP@", "@RUN@", "@SCRIPT@", "@TITLE@", "http://", "https://", " src=", "import "})
+       {"@MAP@", "@SAMPLING@", "@RUN@", "@SCRIPT@", "@TITLE@", "http://", "https://", " src=", "import "})
     CHECK_FALSE(contains(alone, part));
 
   const Outcome run = surefield_command(short_run(folder / "out"), folder.path());

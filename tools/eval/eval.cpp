@@ -32,6 +32,7 @@ constexpr const char* kEvalExamples =
     "  surefield eval --run out/desk\n"
     "  surefield eval --run out/desk --dataset rgbd_dataset_freiburg1_desk --lpips alex.onnx --json "
     "errors.json\n"
+    "  surefield eval --run out/office --scale 1\n"
     "  surefield eval --run out/office --mesh office.ply --ground-truth-mesh office/mesh.ply\n"
     "  surefield eval --trajectory CameraTrajectory.txt --ground-truth rgbd_dataset_freiburg1_desk\n"
     "  surefield eval --trajectory monocular.csv --ground-truth groundtruth.txt --align sim3 --json "
@@ -80,6 +81,12 @@ void add_eval(CLI::App& program, Action& action) {
           "--views", options->run.views,
           "A dataset whose true poses are in the same world as those of the run's: the map is compared "
           "with all of its images too, as with those that surefield synth --beside writes")
+      ->needs(run);
+  eval->add_option("--scale", options->run.scale,
+                   "Size of the images that the map is compared with, relative to the originals; default: "
+                   "that of the run")
+      ->check(CLI::Range(0.01, 1.0))
+      ->default_str("")
       ->needs(run);
   eval->add_option("--lpips", options->run.lpips,
                    "Network of the LPIPS distance, ONNX (docs/evaluation.md tells how to make it)")

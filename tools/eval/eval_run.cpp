@@ -50,7 +50,7 @@ std::vector<QualityView> true_views(const RunFolder& run, const Dataset& dataset
     const Recording& without = *(dataset.ground_truth ? views : dataset).recording;
     throw InputError("--views needs true poses of both datasets, but " + without.name() + " has none");
   }
-  const Intrinsics intrinsics = views.recording->intrinsics().scaled(run.number("/dataset/scale"));
+  const Intrinsics intrinsics = views.recording->intrinsics();
   const Eigen::Isometry3d to_truth = align_poses(associate(run.trajectory, *dataset.ground_truth));
   const Trajectory truth = of_tracked_camera(*views.ground_truth, *views.recording);
   std::vector<QualityView> result;
@@ -63,14 +63,16 @@ std::vector<QualityView> true_views(const RunFolder& run, const Dataset& dataset
 }
 
 std::optional<MapQuality> measure_images(const EvalRunOptions& options, const RunFolder& run,
-                                         const Recording& recording, const std::vector<QualityView>& views,
+                                         const Recording& recording, std::vector<QualityView> views,
                                          const Trajectory& trajectory) {
+  const double scale = options.scale > 0 ? options.scale : run.number("/dataset/scale");
+  for (QualityView& view : views) view.camera.intrinsics = recording.intrinsics().scaled(scale);
   std::optional<Lpips> lpips;
   if (!options.lpips.empty()) lpips.emplace(options.lpips);
   SplatEngine engine(options.engine);
   assign_map(engine, run);
-  QualityInput input{.frame = frames_of(recording, run.number("/dataset/scale")),
-                     .views = views,
+  QualityInput input{.frame = frames_of(recording, scale),
+                     .views = std::move(views),
                      .track = PoseTrack(trajectory),
                      .noise = noise_of(settings_of(run).sensor),
                      .render = [&](const Camera& camera) { return engine.render(camera); }};

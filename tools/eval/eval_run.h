@@ -13,6 +13,7 @@ struct EvalRunOptions {
   std::string views;    ///< a dataset with true poses in the same world, see evaluate_run(); else empty
   std::string lpips;    ///< ONNX file; empty: not measured
   std::string json;     ///< file to write; empty: none
+  double scale = 0;     ///< of the images that are compared, relative to the originals; 0: that of the run
   EngineOptions engine;
 };
 

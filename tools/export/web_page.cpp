@@ -1,5 +1,6 @@
 #include "tools/export/web_page.h"
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <sstream>
@@ -60,6 +61,17 @@ std::string map_text(const GaussianCloud& map) {
   return base64(stream.str());
 }
 
+/// GaussianCloud::sampling in base64, a byte each, as readMap() in tools/web/spz.js takes it: its logarithm
+/// in steps of a twentieth of an octave, 255 one metre; 0 not known.
+std::string sampling_text(const GaussianCloud& map) {
+  std::string bytes;
+  for (float sampling : map.sampling) {
+    const double steps = sampling > 0 ? std::clamp(255 + 20 * std::log2(sampling), 1.0, 255.0) : 0;
+    bytes.push_back(static_cast<char>(static_cast<uint8_t>(std::lround(steps))));
+  }
+  return base64(bytes);
+}
+
 /// Puts `text` wherever `mark` stands.
 void fill_in(std::string& page, const std::string& mark, const std::string& text) {
   for (auto at = page.find(mark); at != std::string::npos; at = page.find(mark, at + text.size()))
@@ -76,6 +88,7 @@ std::string web_page(const WebPageContent& content) {
   fill_in(page, "@SCRIPT@", script);
   fill_in(page, "@RUN@", run_json(content));
   fill_in(page, "@MAP@", map_text(content.map));
+  fill_in(page, "@SAMPLING@", sampling_text(content.map));
   fill_in(page, "@TITLE@", escape_html(content.title));
   return page;
 }

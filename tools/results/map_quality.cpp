@@ -15,10 +15,13 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+constexpr double kOpaque = 0.5;  // a pixel that the map covers
+
 /// The scores of one frame.
 struct FrameScores {
   double psnr = 0;
   double psnr_same_exposure = 0;
+  std::optional<double> psnr_covered = {};
   double ssim = 0;
   std::optional<double> depth_l1 = {};
   std::optional<double> lpips = {};
@@ -58,8 +61,11 @@ FrameScores score(const QualityInput& input, const Camera& camera, const Frame& 
   const cv::Mat rendered = clamped(colour);
   cv::Mat truth;
   frame.colour.convertTo(truth, CV_32FC3, 1.0 / 255);
+  const cv::Mat exposed = clamped(at_exposure_of(frame, images, colour));
+  const cv::Mat covered = cv::Mat(images.height, images.width, CV_32FC1, images.opacity.data()) > kOpaque;
   FrameScores scores{.psnr = psnr(rendered, truth),
-                     .psnr_same_exposure = psnr(clamped(at_exposure_of(frame, images, colour)), truth),
+                     .psnr_same_exposure = psnr(exposed, truth),
+                     .psnr_covered = psnr(exposed, truth, covered),
                      .ssim = ssim(rendered, truth)};
   if (input.lpips) scores.lpips = input.lpips->distance(rendered, truth);
   score_depth(input, camera, frame, std::move(images), scores);
@@ -74,6 +80,8 @@ class ScoreSum {
     sum_.psnr += scores.psnr;
     sum_.psnr_same_exposure += scores.psnr_same_exposure;
     sum_.ssim += scores.ssim;
+    add(sum_.psnr_covered, scores.psnr_covered);
+    covered_frames_ += scores.psnr_covered ? 1 : 0;
     add(sum_.lpips, scores.lpips);
     add(sum_.depth_l1, scores.depth_l1);
     sum_.space += scores.space;
@@ -86,6 +94,7 @@ class ScoreSum {
     mean.psnr /= sum_.frames;
     mean.psnr_same_exposure /= sum_.frames;
     mean.ssim /= sum_.frames;
+    if (mean.psnr_covered) *mean.psnr_covered /= covered_frames_;
     if (mean.lpips) *mean.lpips /= sum_.frames;
     if (mean.depth_l1) *mean.depth_l1 /= depth_frames_;
     return mean;
@@ -97,7 +106,7 @@ class ScoreSum {
   }
 
   ImageScores sum_;
-  int depth_frames_ = 0;
+  int depth_frames_ = 0, covered_frames_ = 0;
 };
 
 nlohmann::ordered_json scores_json(const ImageScores& scores) {
@@ -105,6 +114,7 @@ nlohmann::ordered_json scores_json(const ImageScores& scores) {
   Json json = {{"frames", scores.frames},
                {"psnr_db", number(scores.psnr)},
                {"psnr_same_exposure_db", number(scores.psnr_same_exposure)},
+               {"psnr_covered_db", scores.psnr_covered ? Json(*scores.psnr_covered) : Json(nullptr)},
                {"ssim", number(scores.ssim)},
                {"depth_l1_m", scores.depth_l1 ? Json(*scores.depth_l1) : Json(nullptr)},
                {"floaters", scores.depth_l1 ? Json(scores.space.floaters()) : Json(nullptr)},
@@ -114,8 +124,10 @@ nlohmann::ordered_json scores_json(const ImageScores& scores) {
 }
 
 std::string scores_line(const char* title, const ImageScores& scores) {
-  std::string text = fmt::format("{:<16} PSNR {:.2f} dB (at each frame's exposure {:.2f}), SSIM {:.4f}",
-                                 title, scores.psnr, scores.psnr_same_exposure, scores.ssim);
+  std::string text = fmt::format("{:<16} PSNR {:.2f} dB (at each frame's exposure {:.2f}", title, scores.psnr,
+                                 scores.psnr_same_exposure);
+  if (scores.psnr_covered) text += fmt::format(", where covered {:.2f}", *scores.psnr_covered);
+  text += fmt::format("), SSIM {:.4f}", scores.ssim);
   if (scores.depth_l1)
     text += fmt::format(", depth L1 {:.2f} cm, floaters {:.2f} %, coverage {:.1f} %", 100 * *scores.depth_l1,
                         100 * scores.space.floaters(), 100 * scores.space.coverage());

@@ -17,9 +17,11 @@ namespace surefield {
 /// Means over frames of how the map's renders compare with the sensor's images.
 struct ImageScores {
   int frames = 0;
-  double psnr = 0;                 ///< dB
-  double psnr_same_exposure = 0;   ///< dB, of renders that were brought to each frame's exposure
-  double ssim = 0;                 ///< up to 1
+  double psnr = 0;                ///< dB
+  double psnr_same_exposure = 0;  ///< dB, of renders that were brought to each frame's exposure
+  std::optional<double>
+      psnr_covered;  ///< the same where the map is opaque (O > 0.5); over the frames that it covers
+  double ssim = 0;   ///< up to 1
   std::optional<double> depth_l1;  ///< metres; over the frames with valid depth, if any
   std::optional<double> lpips;     ///< where a network was given
   SpaceCounts space;               ///< sums over the frames, not means

@@ -32,13 +32,15 @@ void main() {
   colour = vec4(max(vec3(c.zw, d.x), 0.0), a.w);
   gl_Position = vec4(0, 0, 2, 1);  // outside
   if (p.z < ${NEAR.toFixed(3)} || a.w < 1.0 / 255.0) return;
-  // The engine's projection (docs/method.md): perspective, linear about the centre, and blurred by 0.3 pixels squared.
+  // The engine's projection (docs/method.md): perspective, linear about the centre, and blurred by 0.3 pixels
+  // squared, of those that the Gaussian was seen with where they are wider.
   vec2 low = 1.3 * (vec2(-0.5) - centre) / focal, high = 1.3 * (size - 0.5 - centre) / focal;
   vec2 tangent = clamp(p.xy / p.z, min(low, high), max(low, high));
   mat3 rows = transpose(rotation);
   vec3 u = focal.x / p.z * (rows[0] - tangent.x * rows[2]), v = focal.y / p.z * (rows[1] - tangent.y * rows[2]);
   mat3 covariance = mat3(b.xyz, b.y, b.w, c.x, b.z, c.xy);
-  float xx = dot(u, covariance * u) + 0.3, xy = dot(u, covariance * v), yy = dot(v, covariance * v) + 0.3;
+  float blur = 0.3 * max(1.0, d.y * d.y * focal.x * focal.y / (p.z * p.z));
+  float xx = dot(u, covariance * u) + blur, xy = dot(u, covariance * v), yy = dot(v, covariance * v) + blur;
   float middle = 0.5 * (xx + yy), apart = length(vec2(0.5 * (xx - yy), xy));
   float angle = apart > 0.0 ? 0.5 * atan(2.0 * xy, xx - yy) : 0.0;
   vec2 axis = vec2(cos(angle), sin(angle));

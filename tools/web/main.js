@@ -143,7 +143,7 @@ function fillPanel(map, viewpoint, home, request, step) {
   });
 }
 
-readMap(element('map').textContent).then((map) => {
+readMap(element('map').textContent, element('sampling').textContent).then((map) => {
   start(map);
   element('message').hidden = true;
 }).catch((error) => { element('message').textContent = `The map cannot be shown: ${error.message}`; });

@@ -25,9 +25,12 @@ function covarianceOf(x, y, z, w, scales) {
 
 /**
  * Reads the Gaussians: their number, their centres (three numbers each) and 16 numbers each for the shaders: centre, opacity,
- * covariance, colour, three unused. In metres, x right, y down, z front. Spherical harmonics above degree 0 are left out.
+ * covariance, colour, sampling, two unused. In metres, x right, y down, z front. Spherical harmonics above degree 0 are left
+ * out. The sampling, the width of a pixel of the nearest view that saw it, comes a byte each: its logarithm in twentieths of an
+ * octave, 255 one metre, 0 not known.
  */
-async function readMap(base64) {
+async function readMap(base64, samplingBase64) {
+  const sampling = decodeBase64(samplingBase64);
   const bytes = await unzip(decodeBase64(base64));
   const view = new DataView(bytes.buffer);
   const count = view.getUint32(8, true), unit = 2 ** -view.getUint8(13);
@@ -48,6 +51,7 @@ async function readMap(base64) {
     const w = Math.sqrt(Math.max(0, 1 - q[0] * q[0] - q[1] * q[1] - q[2] * q[2]));
     records.set(centres.subarray(3 * i, 3 * i + 3), 16 * i);
     records[16 * i + 3] = bytes[alphas + i] / 255;
+    records[16 * i + 13] = sampling[i] ? 2 ** ((sampling[i] - 255) / 20) : 0;
     records.set(covarianceOf(q[0], q[1], q[2], w, axes), 16 * i + 4);
   }
   return {count, centres, records};
