@@ -15,12 +15,11 @@ constexpr double kAhead = 1.0;      // before it lies what the follower looks at
 constexpr double kSteepest = 1.45;  // radians, the steepest look up or down
 constexpr double kClosest = 0.05;   // metres, the closest that the point that is looked at comes
 
-const Eigen::Vector3d kDown = Eigen::Vector3d::UnitY();
-
-/// Turned to the right around the vertical, and down around its own x.
-Eigen::Matrix3d turned(const Eigen::Matrix3d& axes, double right, double down) {
-  const Eigen::Matrix3d level = Eigen::AngleAxisd(right, kDown) * axes;
-  const double steep = std::asin(std::clamp(level.col(2).dot(kDown), -1.0, 1.0));
+/// Turned to the right around the vertical (downwards), and down around its own x.
+Eigen::Matrix3d turned(const Eigen::Matrix3d& axes, const Eigen::Vector3d& vertical, double right,
+                       double down) {
+  const Eigen::Matrix3d level = Eigen::AngleAxisd(right, vertical) * axes;
+  const double steep = std::asin(std::clamp(level.col(2).dot(vertical), -1.0, 1.0));
   const double change = std::clamp(steep + down, -kSteepest, kSteepest) - steep;
   return Eigen::AngleAxisd(-change, level.col(0)) * level;
 }
@@ -31,7 +30,7 @@ void ViewCamera::follow(const Pose& camera_to_world) {
   const Eigen::Vector3d forward = camera_to_world.linear().col(2);
   const Eigen::Vector3d place = camera_to_world.translation();
   const Eigen::Vector3d at = place + kAhead * forward;
-  pose_ = look_at(place - kBehind * forward - kAbove * kDown, at, -kDown);
+  pose_ = look_at(place - kBehind * forward - kAbove * down_, at, -down_);
   distance_ = (at - pose_.translation()).norm();
 }
 
@@ -42,8 +41,10 @@ void ViewCamera::look_through(const Camera& camera) {
 
 void ViewCamera::overlook(const Eigen::Vector3d& middle, double size) {
   distance_ = std::max(1.2 * size, kClosest);
-  const Eigen::Vector3d back = Eigen::Vector3d(0.3, -0.5, -0.8).normalized();
-  pose_ = look_at(middle + distance_ * back, middle, -kDown);
+  // From behind the first camera, above and a little to the right.
+  const Eigen::Quaterniond upright = Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitY(), down_);
+  const Eigen::Vector3d back = upright * Eigen::Vector3d(0.3, -0.5, -0.8).normalized();
+  pose_ = look_at(middle + distance_ * back, middle, -down_);
 }
 
 void ViewCamera::orbit(double right, double down) {
@@ -53,7 +54,7 @@ void ViewCamera::orbit(double right, double down) {
 }
 
 void ViewCamera::turn(double right, double down) {
-  pose_.linear() = turned(pose_.linear(), right, down);
+  pose_.linear() = turned(pose_.linear(), down_, right, down);
 }
 
 void ViewCamera::move(const Eigen::Vector3d& along) {

@@ -6,9 +6,11 @@ namespace surefield {
 
 /// The camera of a person who looks at a map: moved by hand, behind the tracked camera, or in its place.
 ///
-/// Up is away from gravity as well as the first camera of a run tells: its image's up, the world's -y.
+/// Up is the world's -y, as the first camera of a run was held, until set_up() says more.
 class ViewCamera {
  public:
+  /// Where up is in the world (find_up()), unit length. Changes no pose that is already taken.
+  void set_up(const Eigen::Vector3d& up) { down_ = -up; }
   /// Behind the pose of a tracked camera, slightly above it, looking where it looks.
   void follow(const Pose& camera_to_world);
   /// In the place of a camera, with its field of view.
@@ -33,6 +35,7 @@ class ViewCamera {
   double distance() const { return distance_; }
 
  private:
+  Eigen::Vector3d down_ = Eigen::Vector3d::UnitY();
   Pose pose_ = Pose::Identity();  ///< camera to world
   double distance_ = 1.5;         ///< of the point that is looked at, metres
   Intrinsics lens_{.width = 4, .height = 3, .fx = 3.5, .fy = 3.5, .cx = 1.5, .cy = 1};

@@ -8,6 +8,7 @@
 #include "engine/formats/map_file.h"
 #include "engine/io/files.h"
 #include "engine/types/error.h"
+#include "engine/viewer/up_direction.h"
 #include "tools/export/web_page.h"
 #include "tools/report/report_data.h"
 #include "tools/shared/command.h"
@@ -106,6 +107,7 @@ int export_web(const ExportOptions& options) {
     content.title = from.stem().string();
   }
   content.map = load_map(from);
+  content.up = find_up(content.map, content.estimate).up;
   std::error_code error;
   std::filesystem::create_directories(options.web, error);
   if (error) throw InputError(options.web, "cannot be created: " + error.message());

@@ -40,6 +40,7 @@ std::string run_json(const WebPageContent& content) {
                            {"fy", c.fy},
                            {"cx", c.cx},
                            {"cy", c.cy}}},
+                         {"up", {rounded(content.up.x()), rounded(content.up.y()), rounded(content.up.z())}},
                          {"sh_degree", content.map.sh_degree},
                          {"estimate", poses_of(content.estimate)},
                          {"truth", poses_of(content.truth)},
@@ -66,7 +67,8 @@ std::string map_text(const GaussianCloud& map) {
 std::string sampling_text(const GaussianCloud& map) {
   std::string bytes;
   for (float sampling : map.sampling) {
-    const double steps = sampling > 0 ? std::clamp(255 + 20 * std::log2(sampling), 1.0, 255.0) : 0;
+    const double steps =
+        sampling > 0 ? std::clamp(255 + 20 * std::log2(static_cast<double>(sampling)), 1.0, 255.0) : 0;
     bytes.push_back(static_cast<char>(static_cast<uint8_t>(std::lround(steps))));
   }
   return base64(bytes);

@@ -13,6 +13,7 @@ struct WebPageContent {
   std::string title;
   GaussianCloud map;
   Intrinsics camera;    ///< how keyframes are drawn, and the field of view to start with
+  Eigen::Vector3d up;   ///< of the world, unit length
   Trajectory estimate;  ///< may be empty, as the following
   Trajectory truth;
   Trajectory keyframes;

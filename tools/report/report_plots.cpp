@@ -13,21 +13,29 @@ namespace surefield {
 
 namespace {
 
-/// The axes along which positions spread: most, less, least. World to axes.
+/// The axes along which positions spread: most, less, least; where up is known, the third is that and the
+/// others are level. World to axes.
 struct PrincipalAxes {
   Eigen::Vector3d centre = Eigen::Vector3d::Zero();
   Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();  ///< one a row
+  bool upright = false;                                ///< the third is up
 
   Eigen::Vector3d of(const Eigen::Vector3d& position) const { return axes * (position - centre); }
 };
 
-PrincipalAxes principal_axes(const std::vector<Eigen::Vector3d>& positions) {
+PrincipalAxes principal_axes(const std::vector<Eigen::Vector3d>& positions,
+                             const std::optional<Eigen::Vector3d>& up) {
   PrincipalAxes result;
+  result.upright = up.has_value();
   for (const Eigen::Vector3d& position : positions) result.centre += position;
   result.centre /= static_cast<double>(std::max<std::size_t>(1, positions.size()));
   Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
   for (const Eigen::Vector3d& position : positions) {
     spread += (position - result.centre) * (position - result.centre).transpose();
+  }
+  if (up) {  // makes up the least axis
+    const Eigen::Matrix3d level = Eigen::Matrix3d::Identity() - *up * up->transpose();
+    spread = level * spread * level + spread.trace() * 1e-6 * level;
   }
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(spread);
   for (int row = 0; row < 3; ++row) {
@@ -38,7 +46,23 @@ PrincipalAxes principal_axes(const std::vector<Eigen::Vector3d>& positions) {
     if (axis[largest] < 0) axis = -axis;
     result.axes.row(row) = axis.transpose();
   }
+  if (up) result.axes.row(2) = up->transpose();
   return result;
+}
+
+/// Where up is in the world of paths_of(), by the first run of the group whose map tells.
+std::optional<Eigen::Vector3d> up_of(const std::vector<ReportRun>& runs, const RunGroup& group) {
+  for (int i : group.runs) {
+    const nlohmann::json& up = runs[i].folder.metrics.value("up", nlohmann::json());
+    if (!up.is_object() || !up.value("measured", false)) continue;
+    const auto direction = up.value("direction", std::vector<double>());
+    if (direction.size() != 3) continue;
+    const Eigen::Vector3d in_run(direction[0], direction[1], direction[2]);
+    if (!(in_run.norm() > 0.5)) continue;
+    return runs[i].accuracy ? Eigen::Vector3d(runs[i].accuracy->alignment.linear() * in_run.normalized())
+                            : in_run.normalized();
+  }
+  return std::nullopt;
 }
 
 /// A line through space.
@@ -72,8 +96,11 @@ std::vector<Path> paths_of(const std::vector<ReportRun>& runs, const RunGroup& g
 
 Plot map_plot(const std::string& title, const std::vector<Path>& paths, const PrincipalAxes& axes,
               int second) {
-  static const char* const kAxes[] = {"1st axis, m", "2nd axis, m", "3rd axis, m"};
-  Plot plot{.title = title, .x_label = kAxes[0], .y_label = kAxes[second], .equal_scale = true};
+  static const char *const kAxes[] = {"1st axis, m", "2nd axis, m", "3rd axis, m"}, *const kUp = "up, m";
+  Plot plot{.title = title,
+            .x_label = kAxes[0],
+            .y_label = second == 2 && axes.upright ? kUp : kAxes[second],
+            .equal_scale = true};
   for (const Path& path : paths) {
     PlotSeries series{path.name, path.colour, {}};
     for (const Eigen::Vector3d& position : path.positions) {
@@ -190,18 +217,20 @@ std::vector<RunGroup> group_by_dataset(const std::vector<ReportRun>& runs) {
 std::string trajectory_section(const std::vector<ReportRun>& runs) {
   std::string html =
       "<section><h2>Trajectory</h2>\n<p class=\"note\">In the principal axes of the path: the first is that "
-      "along "
-      "which it is longest, the third that along which it is shortest; where down is, nothing says. Rings "
-      "mark "
-      "the start.</p>\n";
+      "along which it is longest, the third that along which it is shortest. Where the map tells where up "
+      "is, "
+      "the first two are level and the third is up. Rings mark the start.</p>\n";
   const std::vector<RunGroup> groups = group_by_dataset(runs);
   for (const RunGroup& group : groups) {
     const std::vector<Path> paths = paths_of(runs, group);
-    const PrincipalAxes axes = principal_axes(paths.front().positions);
+    const PrincipalAxes axes = principal_axes(paths.front().positions, up_of(runs, group));
     const std::string prefix = groups.size() > 1 ? group.dataset + ": " : "";
     html += "<div class=\"figures\">\n" +
-            plot_figure(map_plot(prefix + "1st and 2nd principal axis", paths, axes, 1)) +
-            plot_figure(map_plot(prefix + "1st and 3rd principal axis", paths, axes, 2)) + "</div>\n";
+            plot_figure(map_plot(prefix + (axes.upright ? "From above" : "1st and 2nd principal axis"), paths,
+                                 axes, 1)) +
+            plot_figure(map_plot(prefix + (axes.upright ? "From the side" : "1st and 3rd principal axis"),
+                                 paths, axes, 2)) +
+            "</div>\n";
   }
   return html + "</section>\n";
 }

@@ -105,6 +105,9 @@ std::string metrics_json(const RunRecord& record, const nlohmann::ordered_json& 
   json["time"] = time_json(record);
   json["map"] = {{"gaussians", record.gaussians()},
                  {"megabytes", static_cast<double>(record.engine.map_bytes) / kMegabyte}};
+  json["up"] = record.up ? Json({{"direction", {record.up->up.x(), record.up->up.y(), record.up->up.z()}},
+                                 {"measured", record.up->measured}})
+                         : Json(nullptr);
   json["memory"] = {{"device_peak_mb", static_cast<double>(record.engine.device_peak_bytes) / kMegabyte},
                     {"host_peak_mb", host_peak_bytes() / kMegabyte}};
   json["trajectory"] = trajectory_json(record.accuracy, record.keyframe_accuracy);

@@ -10,6 +10,7 @@
 #include "engine/session/run_sequence.h"
 #include "engine/slam/slam.h"
 #include "engine/sources/frame_stream.h"
+#include "engine/viewer/up_direction.h"
 #include "tools/results/map_quality.h"
 
 namespace surefield {
@@ -42,6 +43,7 @@ struct RunRecord {
   std::optional<TrajectoryMetrics> accuracy;  ///< where there is ground truth
   std::optional<TrajectoryMetrics> keyframe_accuracy;
   std::optional<MapQuality> images;
+  std::optional<UpDirection> up;  ///< in the world of the trajectory, once the run has ended
 
   /// Frames whose pose is known, of all that were read; nan: none was.
   double pose_share() const;

@@ -12,6 +12,7 @@
 #include "engine/viewer/film_picture.h"
 #include "engine/viewer/film_writer.h"
 #include "engine/viewer/follower.h"
+#include "engine/viewer/up_direction.h"
 #include "engine/viewer/view_path.h"
 #include "tools/results/run_scene.h"
 #include "tools/shared/command.h"
@@ -134,8 +135,8 @@ Journey plan(const RenderOptions& options) {
     journey.stations = at_rate(recorded->path, options.rate);
   } else if (options.path == kOrbit) {
     const Trajectory seen_from = journey.run ? journey.run->scene.trajectory : Trajectory{};
-    journey.stations =
-        at_rate(orbit(journey.map, journey.lens, up_of(seen_from), options.seconds), options.rate);
+    journey.stations = at_rate(
+        orbit(journey.map, journey.lens, find_up(journey.map, seen_from).up, options.seconds), options.rate);
     if (journey.stations.size() > 1) journey.stations.pop_back();  // the last is the first again
   } else {
     journey.stations = stations_of_run(*journey.run, options.path);

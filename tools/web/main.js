@@ -26,12 +26,6 @@ function frustum(pose, colour, depth) {
   return corners.flatMap((at, k) => [...line(position, at), ...line(at, corners[(k + 1) % 4])]);
 }
 
-/** The world's up: against the mean of what was down for the cameras. */
-function upOf(poses) {
-  const sum = poses.reduce((all, pose) => along(all, -1, poseOf(pose).rotation[1]), [0, 0, 0]);
-  return Math.hypot(...sum) > 0.2 * poses.length ? unit(sum) : [0, -1, 0];
-}
-
 /** How far in front of a pose the map's middle lies. */
 function distanceOf(pose, centres) {
   const depths = [];
@@ -61,7 +55,7 @@ function start(map) {
   const painter = new Painter(canvas, map);
   const home = poseOf(numbers('pose') ?? run.keyframes[0] ?? [0, 0, 0, 0, 0, 0, 1]);
   const distance = distanceOf(home, map.centres);
-  const viewpoint = new Viewpoint(home, upOf(run.keyframes), distance);
+  const viewpoint = new Viewpoint(home, run.up, distance);
   const lines = {
     estimate: painter.makeLines(path(run.estimate, COLOURS.estimate)),
     truth: painter.makeLines(path(run.truth, COLOURS.truth)),
