@@ -1,5 +1,6 @@
 #include "engine/formats/triangle_mesh.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <cstring>
@@ -71,23 +72,17 @@ void read_faces(const Path& file, const PlyElement& element, PlyRecordReader& re
   }
 }
 
-void check_mesh(const TriangleMesh& mesh) {
-  if (!mesh.colours.empty() && mesh.colours.size() != mesh.vertices.size()) {
-    throw UsageError("write_mesh: the mesh has more or fewer colours than vertices");
-  }
-  if (mesh.vertices.size() > static_cast<std::size_t>(std::numeric_limits<int32_t>::max())) {
-    throw UsageError("write_mesh: more vertices than the indices of a PLY file can tell apart");
-  }
-}
-
-/// Positions and colours as stored.
+/// Positions, normals and colours as stored.
 std::string vertex_bytes(const TriangleMesh& mesh) {
+  const std::vector<Eigen::Vector3f> normals = vertex_normals(mesh);
   std::string bytes;
-  bytes.reserve(mesh.vertices.size() * 15);
+  bytes.reserve(mesh.vertices.size() * 27);
   for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
-    char position[12];
-    std::memcpy(position, mesh.vertices[i].data(), sizeof(position));
-    bytes.append(position, sizeof(position));
+    for (const Eigen::Vector3f& vector : {mesh.vertices[i], normals[i]}) {
+      char numbers[12];
+      std::memcpy(numbers, vector.data(), sizeof(numbers));
+      bytes.append(numbers, sizeof(numbers));
+    }
     if (mesh.colours.empty()) continue;
     for (float value : mesh.colours[i]) {
       const float level = std::isnan(value) ? 0.0f : std::clamp(value, 0.0f, 1.0f) * 255.0f;
@@ -111,6 +106,28 @@ std::string face_bytes(const TriangleMesh& mesh) {
 
 }  // namespace
 
+void check_mesh(const TriangleMesh& mesh) {
+  if (!mesh.colours.empty() && mesh.colours.size() != mesh.vertices.size()) {
+    throw UsageError("the mesh has more or fewer colours than vertices");
+  }
+  if (mesh.vertices.size() > static_cast<std::size_t>(std::numeric_limits<int32_t>::max())) {
+    throw UsageError("more vertices than the indices of a PLY file can tell apart");
+  }
+}
+
+std::vector<Eigen::Vector3f> vertex_normals(const TriangleMesh& mesh) {
+  std::vector<Eigen::Vector3f> normals(mesh.vertices.size(), Eigen::Vector3f::Zero());
+  for (const auto& triangle : mesh.triangles) {
+    const Eigen::Vector3f& a = mesh.vertices[triangle[0]];
+    // Twice the area long.
+    const Eigen::Vector3f normal = (mesh.vertices[triangle[1]] - a).cross(mesh.vertices[triangle[2]] - a);
+    for (uint32_t corner : triangle) normals[corner] += normal;
+  }
+  for (Eigen::Vector3f& normal : normals)
+    if (normal.norm() > 0) normal = normal.stableNormalized().eval();
+  return normals;
+}
+
 TriangleMesh read_mesh(const Path& file) {
   const PlyHeader header = read_ply_header(file);
   if (header.is_compressed()) throw InputError(file, "is a compressed map of Gaussians, no triangle mesh");
@@ -133,7 +150,9 @@ void write_mesh(const Path& file, const TriangleMesh& mesh) {
   check_mesh(mesh);
   write_file(file, [&](std::ostream& stream) {
     stream << "ply\nformat binary_little_endian 1.0\nelement vertex " << mesh.vertices.size()
-           << "\nproperty float x\nproperty float y\nproperty float z\n";
+           << "\nproperty float x\nproperty float y\nproperty float z\nproperty float nx\nproperty float "
+              "ny\nproperty "
+              "float nz\n";
     if (!mesh.colours.empty()) stream << "property uchar red\nproperty uchar green\nproperty uchar blue\n";
     stream << "element face " << mesh.triangles.size()
            << "\nproperty list uchar int vertex_indices\nend_header\n";

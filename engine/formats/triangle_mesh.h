@@ -22,8 +22,16 @@ struct TriangleMesh {
 /// indices out of range and for positions that are not finite.
 TriangleMesh read_mesh(const std::filesystem::path& file);
 
-/// Writes a PLY mesh (binary little endian; float x y z, uchar red green blue where there are colours). The
-/// file appears complete or not at all. Throws InputError when it cannot be written.
+/// The normal of each vertex, of unit length: that of its triangles, weighed by their areas; zero where it
+/// has none. World frame, outwards.
+std::vector<Eigen::Vector3f> vertex_normals(const TriangleMesh& mesh);
+
+/// Throws UsageError where the mesh has colours, but not one per vertex, or more vertices than a PLY file can
+/// tell apart.
+void check_mesh(const TriangleMesh& mesh);
+
+/// Writes a PLY mesh (binary little endian; float x y z nx ny nz, uchar red green blue where there are
+/// colours). The file appears complete or not at all. Throws InputError when it cannot be written.
 void write_mesh(const std::filesystem::path& file, const TriangleMesh& mesh);
 
 }  // namespace surefield

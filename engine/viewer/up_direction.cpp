@@ -21,7 +21,7 @@ constexpr double kLargestShare = 0.99;    // Gaussians larger than so many other
 constexpr double kSearch = 60 * kDegree;  // about what is up in the cameras' images
 constexpr double kGrid = 2 * kDegree;
 constexpr double kRoll = 15 * kDegree;  // by so much cameras are tilted sideways
-constexpr double kUsualPitch = -15 * kDegree, kPitch = 30 * kDegree;  // of where they look, upwards
+constexpr double kUsualPitch = -15 * kDegree, kPitch = 50 * kDegree;  // of where they look, upwards
 constexpr double kSpread = 4 * kDegree;  // of the normals of a level or upright surface
 constexpr double kHalfThickness[] = {0.08, 0.06, 0.05, 0.04, 0.03, 0.03};  // of a level plane, metres
 constexpr double kLevel[] = {20, 15, 12, 10, 10, 10};                      // degrees

@@ -194,7 +194,9 @@ void ViewPainter::record_picture(gpu::Recorder& recorder, const Camera& camera,
                     {.pixels = static_cast<uint32_t>(size_.pixels()),
                      .low = low,
                      .high = high,
-                     .background = to_vec3(settings.background)});
+                     .background = to_vec3(settings.background),
+                     .width = size_.width,
+                     .checker = settings.checker});
 }
 
 cv::Mat ViewPainter::picture() const {

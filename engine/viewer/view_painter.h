@@ -16,8 +16,9 @@ namespace surefield {
 /// What a picture shows, and on which scales.
 struct ViewSettings {
   ViewMode mode = ViewMode::Colour;
-  Eigen::Vector3f background = Eigen::Vector3f::Zero();  ///< RGB, 0 to 1
-  float depth_near = 0;                                  ///< metres; the ends of the scale of depths
+  Eigen::Vector3f background{0.16f, 0.16f, 0.17f};  ///< RGB, 0 to 1
+  uint32_t checker = 12;  ///< side of the squares of two tones that it is made of, pixels; 0: one tone
+  float depth_near = 0;   ///< metres; the ends of the scale of depths
   float depth_far = 5;
   float error_far = 0.2f;  ///< metres; the end of the scale of uncertainties
 

@@ -5,7 +5,7 @@
 #define PASS_CONSTANTS(C) C(1, SHADE, 0)
 #define PASS_PARAMS(P)                                                     \
   P(uint, pixels) P(float, low) P(float, high) /* ends of the palette */   \
-  P(vec3, background)
+  P(vec3, background) P(uint, width) P(uint, checker) /* side of the squares behind the map, pixels; 0: none */
 #define PASS_BINDINGS(READ, WRITE, UPDATE)                                  \
   READ(0, vec4, colour_opacity) /* on black */                              \
   READ(1, vec4, geometry)                                                   \

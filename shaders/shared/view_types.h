@@ -26,6 +26,8 @@ SHARED_CONST float DOT_RADIUS = 1.25f;     // of a centre drawn as a dot, pixels
 SHARED_CONST float SOLID_OPACITY = 0.03f;  // fainter Gaussians are not drawn: their tiles do not hold all of a solid
 SHARED_CONST float FULL_ERROR = 0.2f;      // mean difference of the channels that is painted in the palette alone
 
+SHARED_CONST float CHECKER_CONTRAST = 0.06f; // by so much every other square behind the map is lighter
+
 SHARED_CONST uint LINE_TILE = 8u;  // pixels
 
 /// A line on the image.

@@ -20,6 +20,13 @@ vec3 error_overlay(vec3 rendered, vec3 sensor) {
   return mix(vec3(grey), unpack(palette[uint(weight * 255 + 0.5)]), weight);
 }
 
+/// What is behind the map: two tones of the background in squares, so that a hole is no black thing.
+vec3 behind_at(uint i) {
+  if (params.checker == 0) return params.background;
+  const uvec2 square = uvec2(i % params.width, i / params.width) / params.checker;
+  return params.background + ((square.x + square.y) % 2) * CHECKER_CONTRAST;
+}
+
 // One invocation per pixel.
 void main() {
   const uint i = gl_GlobalInvocationID.x;
@@ -29,7 +36,7 @@ void main() {
   const float opacity = rendered.a;
   const vec3 sensor = unpack(sensor_colour[i]);
   const bool sensed = sensor_colour[i] != 0;
-  const vec3 behind = params.background;
+  const vec3 behind = behind_at(i);
   const vec3 colour = clamp(rendered.rgb + (1 - opacity) * behind, 0.0, 1.0);
   const float per_opacity = opacity > 0 ? 1 / opacity : 0.0;
 

@@ -52,6 +52,8 @@ TEST_CASE("export writes the format that the ending or --format names, and meshe
   CHECK(contains(start({"--map", map, "--format", "points"}, "d.ply"), "property uchar red"));
   CHECK(contains(start({"--map", map}, "e.glb"), "KHR_gaussian_splatting:SCALE"));
   CHECK(start({"--mesh", folder / "mesh.ply"}, "f.glb").starts_with("glTF"));
+  CHECK(start({"--mesh", folder / "mesh.ply"}, "f.obj").starts_with("# metres"));
+  CHECK(start({"--mesh", folder / "mesh.ply"}, "f.stl").starts_with("triangles, metres"));
 }
 
 TEST_CASE("export refuses what it cannot write or read with the reason") {
@@ -70,7 +72,8 @@ TEST_CASE("export refuses what it cannot write or read with the reason") {
   CHECK(contains(as("spz", "a.ply"), "a.ply: is named like another format than --format spz; name it .spz"));
   CHECK(contains(as("points", "a.compressed.ply"), "--format points; name it .ply"));
   CHECK(contains(as("sog", "a.ply"), "sog not in {cply,glb,ply,points,spz}"));
-  CHECK(contains(message({"--mesh", folder / "map.ply", "--out", folder / "a.ply"}), "name it .glb"));
+  CHECK(contains(message({"--mesh", folder / "map.ply", "--out", folder / "a.off"}),
+                 "name it .ply, .obj, .stl or .glb"));
   CHECK(contains(message({"--mesh", folder / "map.ply", "--out", folder / "a.glb"}),
                  "map.ply: has no element face"));
   CHECK(contains(message({"--map", folder / "no.spz", "--out", folder / "a.ply"}), "no.spz: no such file"));

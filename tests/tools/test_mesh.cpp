@@ -93,7 +93,7 @@ TEST_CASE("mesh and the comparison of meshes name what they lack") {
   CHECK(contains(message({"--run", "/no/such"}), "/no/such/metrics.json: no such file"));
   CHECK(contains(message({"--run", "/no/such", "--trajectory", "true"}), "world frame of its own"));
   CHECK(contains(message({"--source", "other"}), "--source"));
-  CHECK(contains(mesh_command(folder, {"--run", "/no/such"}, "a.obj").err, "a.obj: has no ending of a mesh"));
+  CHECK(contains(mesh_command(folder, {"--run", "/no/such"}, "a.off").err, "a.off: has no ending of a mesh"));
   CHECK(contains(message({"--run", "/no/such", "--stride", "0"}), "--stride"));
 
   write_mesh(folder / "a.ply", square(0));

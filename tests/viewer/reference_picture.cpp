@@ -162,7 +162,8 @@ Gaussians as_shown(const Scene& scene, ViewMode mode) {
 
 }  // namespace
 
-Picture paint(const Scene& scene, const ViewSettings& settings, const cv::Mat& sensor) {
+Picture paint(const Scene& scene, const ViewSettings& view, const cv::Mat& sensor) {
+  ViewSettings settings = view;  // with the background of the pixel at hand
   const Gaussians gaussians = as_shown(scene, settings.mode);
   const bool dots = settings.mode == ViewMode::Points;
   const bool solid = dots || settings.mode == ViewMode::Ellipsoids;
@@ -172,6 +173,9 @@ Picture paint(const Scene& scene, const ViewSettings& settings, const cv::Mat& s
   for (std::size_t i = 0; i < images.opacity.size(); ++i) {
     const int u = static_cast<int>(i) % images.width, v = static_cast<int>(i) / images.width;
     uint8_t edge = 0;
+    settings.background = view.background;
+    const int side = static_cast<int>(view.checker);
+    if (side > 0 && (u / side + v / side) % 2 == 1) settings.background.array() += glsl::CHECKER_CONTRAST;
     if (solid) {
       picture.pixels.push_back(nearest_solid(all, u, v, dots, settings.background.cast<double>(), edge));
     } else {

@@ -64,9 +64,9 @@ TEST_CASE("lines cover what they should, are cut behind the camera and faint beh
   };
   ViewPainter painter(testing::device());
   painter.assign(wall());
-  painter.paint(kCamera, {.background = {0.2f, 0.2f, 0.2f}});
+  painter.paint(kCamera, {.background = {0.2f, 0.2f, 0.2f}, .checker = 0});
   const cv::Mat before = painter.picture();
-  painter.paint(kCamera, {.background = {0.2f, 0.2f, 0.2f}}, lines);
+  painter.paint(kCamera, {.background = {0.2f, 0.2f, 0.2f}, .checker = 0}, lines);
   const cv::Mat after = painter.picture();
   int changed = 0;
   for (int v = 0; v < 61; ++v)

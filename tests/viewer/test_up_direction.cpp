@@ -29,7 +29,7 @@ void add_rectangle(GaussianCloud& cloud, std::mt19937& random, const Eigen::Vect
   }
 }
 
-/// A room with y down: floor, two walls and a table, and a slanted roof that is larger than either.
+/// A room with y down: floor, two walls and a table, and a slanted roof.
 GaussianCloud room() {
   std::mt19937 random(5);
   GaussianCloud cloud;
@@ -39,7 +39,7 @@ GaussianCloud room() {
   add_rectangle(cloud, random, 4 * z, 2 * x, 1.4 * y, 1000);
   add_rectangle(cloud, random, -2 * x + 2 * z, 2 * z, 1.4 * y, 1000);
   add_rectangle(cloud, random, 0.6 * y + 3 * z, 0.8 * x, 0.4 * z, 400);
-  add_rectangle(cloud, random, -1.4 * y + 2 * z, 2 * x, Eigen::Vector3d(0, 0.7, 2), 2000);
+  add_rectangle(cloud, random, -1.4 * y + 2 * z, 2 * x, Eigen::Vector3d(0, 0.7, 2), 1200);
   cloud.log_scales.assign(cloud.means.size(), Eigen::Vector3f(-4, -4, -7));
   const std::size_t count = cloud.means.size();
   cloud.opacity_logits.assign(count, 2);

@@ -68,6 +68,7 @@ TEST_CASE("every mode paints what its definition says") {
         scene.cloud.uncertainty[i] = 0.04f * static_cast<float>(i) / 120;
       compare_with_reference(scene, {.mode = info.mode,
                                      .background = {0.1f, 0.2f, 0.6f},
+                                     .checker = 7,
                                      .depth_near = 0.5f,
                                      .depth_far = 4.5f,
                                      .error_far = 0.3f});
@@ -89,7 +90,7 @@ TEST_CASE("a view with other intrinsics shows the sensor's image where the senso
   const cv::Mat sensor = noise_image(40, 30);
   ViewPainter painter(testing::device());
   painter.set_sensor(view_of(sensor, std::vector<float>(40 * 30, 1.0f)), sensor_camera);
-  painter.paint({view}, {.mode = ViewMode::Sensor, .background = {1, 1, 1}});
+  painter.paint({view}, {.mode = ViewMode::Sensor, .background = {1, 1, 1}, .checker = 0});
   const cv::Mat got = painter.picture();
   int outside = 0;
   for (int v = 0; v < view.height; ++v)
@@ -110,8 +111,15 @@ TEST_CASE("a view with other intrinsics shows the sensor's image where the senso
 TEST_CASE("an empty map is the background, and a mode that needs a frame says so") {
   ViewPainter painter(testing::device());
   const Camera camera{{.width = 20, .height = 10, .fx = 20, .fy = 20, .cx = 9.5, .cy = 4.5}};
-  painter.paint(camera, {.background = {0, 0.6f, 1}});
+  painter.paint(camera, {.background = {0, 0.6f, 1}, .checker = 0});
   CHECK(cv::norm(painter.picture(), cv::Mat(10, 20, CV_8UC3, cv::Scalar(0, 153, 255)), cv::NORM_INF) == 0);
+  // In squares, every other one lighter: nothing that a map could hold.
+  painter.paint(camera, {.background = {0.2f, 0.4f, 0.6f}, .checker = 5});
+  const cv::Vec3b dark(51, 102, 153), light(66, 117, 168);
+  for (int v = 0; v < 10; ++v)
+    for (int u = 0; u < 20; ++u)
+      CHECK(cv::norm(painter.picture().at<cv::Vec3b>(v, u), (u / 5 + v / 5) % 2 ? light : dark,
+                     cv::NORM_INF) <= 1);
   CHECK_THROWS_AS(painter.paint(camera, {.mode = ViewMode::Error}), UsageError);
 }
 

@@ -4,8 +4,8 @@
 #include <filesystem>
 #include <memory>
 
-#include "engine/formats/glb.h"
 #include "engine/formats/map_file.h"
+#include "engine/formats/mesh_file.h"
 #include "engine/io/files.h"
 #include "engine/types/error.h"
 #include "engine/viewer/up_direction.h"
@@ -35,7 +35,7 @@ constexpr const char* kExportExamples =
     "  surefield export --run out/desk --out desk.spz\n"
     "  surefield export --map desk.spz --out desk.compressed.ply\n"
     "  surefield export --run out/desk --format points --out desk_points.ply\n"
-    "  surefield export --mesh desk_mesh.ply --out desk_mesh.glb\n"
+    "  surefield export --mesh desk_mesh.ply --out desk_mesh.glb   # or .obj, .stl\n"
     "  surefield export --run out/desk --web desk_web\n";
 
 constexpr Intrinsics kUsualCamera = {640, 480, 525, 525, 319.5, 239.5};  // of most RGB-D sensors
@@ -120,10 +120,9 @@ int export_web(const ExportOptions& options) {
 }
 
 int export_mesh(const ExportOptions& options) {
-  if (std::filesystem::path(options.out).extension() != ".glb")
-    throw InputError(options.out, "a mesh is exported as binary glTF; name it .glb");
+  require_mesh_ending(options.out);
   const TriangleMesh mesh = read_mesh(options.mesh);
-  write_glb(options.out, mesh);
+  write_mesh_file(options.out, mesh);
   fmt::print("{} vertices, {} triangles: {} ({:.2f} MB) -> {} ({:.2f} MB)\n", mesh.vertices.size(),
              mesh.triangles.size(), options.mesh, megabytes(options.mesh), options.out,
              megabytes(options.out));

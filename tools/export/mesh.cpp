@@ -50,8 +50,9 @@ void add_mesh(CLI::App& program, Action& action) {
   mesh->add_option("--depth-max", options->depth_max,
                    "Leaves out depth beyond, metres; default: as configured for the run")
       ->check(CLI::PositiveNumber);
-  mesh->add_option("--out", options->out,
-                   "File of the mesh; its ending names the format, .ply or .glb (glTF)")
+  mesh->add_option(
+          "--out", options->out,
+          "File of the mesh; its ending names the format, .ply, .obj, .stl (no colours) or .glb (glTF)")
       ->required();
   mesh->add_option("--device", options->engine.device,
                    "Number or part of the name of the device, see surefield devices; default: the best");

@@ -10,7 +10,7 @@
 #include <string>
 
 #include "engine/eval/pose_track.h"
-#include "engine/formats/glb.h"
+#include "engine/formats/mesh_file.h"
 #include "engine/io/trajectory_file.h"
 #include "engine/types/error.h"
 #include "tools/results/run_configuration.h"
@@ -120,9 +120,7 @@ bool is_certain(const Input& input, float z) {
 }
 
 void check(const MeshOptions& options) {
-  const std::string ending = std::filesystem::path(options.out).extension().string();
-  if (ending != ".ply" && ending != ".glb")
-    throw InputError(options.out, "has no ending of a mesh format; name it .ply or .glb");
+  require_mesh_ending(options.out);
   if (options.run.empty() && options.source == MeshSource::Rendered) {
     throw InputError("rendered depth needs the map of a run: give --run, or --source sensor");
   }
@@ -241,11 +239,7 @@ int fuse_mesh(const MeshOptions& options) {
                     std::isfinite(input.depth_max) ? fmt::format(" within {} m", input.depth_max) : "",
                     input.truncation));
   }
-  if (std::filesystem::path(options.out).extension() == ".glb") {
-    write_glb(options.out, mesh);
-  } else {
-    write_mesh(options.out, mesh);
-  }
+  write_mesh_file(options.out, mesh);
   fmt::print("frames fused     {} of {}, {:.1f} s\n", fused, input.views.size(), seconds);
   fmt::print("distance field   {} blocks, {:.1f} MB\n", volume.blocks(),
              static_cast<double>(volume.bytes()) / 1e6);

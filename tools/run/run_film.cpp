@@ -17,7 +17,7 @@ namespace {
 
 constexpr int kRate = 25;  // pictures a second
 constexpr Intrinsics kFilmLens{.width = 16, .height = 9, .fx = 13, .fy = 13, .cx = 7.5, .cy = 4};
-const ViewSettings kLook{.background = {0.07f, 0.07f, 0.09f}};
+const ViewSettings kLook;
 
 }  // namespace
 

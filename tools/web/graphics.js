@@ -124,10 +124,12 @@ function makeSorter(centres, done) {
 }
 
 class Painter {
-  constructor(canvas, map) {
-    const gl = canvas.getContext('webgl2', {alpha: false, antialias: false, depth: false});
+  /** `opaque`: holes are black, else they show what is behind the canvas. */
+  constructor(canvas, map, opaque) {
+    const gl = canvas.getContext('webgl2', {alpha: !opaque, antialias: false, depth: false});
     if (!gl) throw new Error('This browser has no WebGL2, which this page needs.');
     this.gl = gl;
+    this.opaque = opaque;
     this.splats = this.program(SPLAT_VERTICES, SPLAT_PIXELS, ['gaussian']);
     this.lines = this.program(LINE_VERTICES, LINE_PIXELS, ['point', 'tint']);
     this.upload(map);
@@ -190,7 +192,7 @@ class Painter {
   draw(camera, lines) {
     const gl = this.gl;
     gl.viewport(0, 0, camera.width, camera.height);
-    gl.clearColor(0, 0, 0, 1);
+    gl.clearColor(0, 0, 0, this.opaque ? 1 : 0);  // holes show the page's squares
     gl.clear(gl.COLOR_BUFFER_BIT);
     this.use(this.splats, camera);
     gl.bindBuffer(gl.ARRAY_BUFFER, this.order);

@@ -52,7 +52,7 @@ function cameraOf({position, rotation}) {
 }
 
 function start(map) {
-  const painter = new Painter(canvas, map);
+  const painter = new Painter(canvas, map, Boolean(fixed));
   const home = poseOf(numbers('pose') ?? run.keyframes[0] ?? [0, 0, 0, 0, 0, 0, 1]);
   const distance = distanceOf(home, map.centres);
   const viewpoint = new Viewpoint(home, run.up, distance);
