@@ -102,10 +102,10 @@ TEST_CASE("reproduce runs what it finds, resumes, and puts its results beside th
         written);
   CHECK(read_file(folder / "out/tables.md") == tables);
   // Other settings are another run.
-  const Outcome third = reproduce(folder, arguments + " --scale 0.5");
+  const Outcome third = reproduce(folder, arguments + " --scale 0.75");
   CHECK(third.code == 0);
   CHECK_FALSE(contains(third.out, "done before"));
-  CHECK(contains(read_file(folder / "out/tables.md"), "images of 16 x 12"));
+  CHECK(contains(read_file(folder / "out/tables.md"), "images of 24 x 18"));
 }
 
 TEST_CASE("reproduce that finds no data says what to fetch and writes no table") {

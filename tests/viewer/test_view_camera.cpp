@@ -105,3 +105,27 @@ TEST_CASE("panning moves what is looked at with the mouse, approaching stops bef
   for (int i = 0; i < 100; ++i) camera.approach(0.5);
   CHECK(camera.distance() > 0.01);
 }
+
+TEST_CASE("a view stands and turns about what is up") {
+  const Eigen::Vector3d up = Eigen::Vector3d(0.3, -0.9, 0.2).normalized();
+  ViewCamera camera;
+  camera.set_up(up);
+  const auto check_level = [&] {
+    const Eigen::Matrix3d axes = camera.camera_to_world().linear();
+    CHECK(std::abs(axes.col(0).dot(up)) < 1e-9);
+    CHECK(axes.col(1).dot(up) < 0);  // the image's down
+  };
+  camera.overlook({0, 0, 2}, 1);
+  check_level();
+  CHECK((camera.camera_to_world().translation() - Eigen::Vector3d(0, 0, 2)).dot(up) > 0);  // from above
+  for (int i = 0; i < 7; ++i) {
+    camera.orbit(0.9, i % 2 ? -0.3 : 0.4);
+    check_level();
+  }
+  Pose tracked = Pose::Identity();
+  tracked.translation() = {1, 2, 3};
+  camera.follow(tracked);
+  check_level();
+  camera.turn(1.0, 0.2);
+  check_level();
+}
