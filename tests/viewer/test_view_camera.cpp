@@ -123,7 +123,7 @@ TEST_CASE("a view stands and turns about what is up") {
     check_level();
   }
   Pose tracked = Pose::Identity();
-  tracked.translation() = {1, 2, 3};
+  tracked.translation() = Eigen::Vector3d(1, 2, 3);
   camera.follow(tracked);
   check_level();
   camera.turn(1.0, 0.2);
