@@ -58,6 +58,10 @@ TEST_CASE("eval --run finds again what the run found, and needs no more than its
   const TemporaryFolder folder;
   const Outcome run = surefield_command(short_run(folder / "out"), folder.path());
   REQUIRE_MESSAGE(run.code == 0, run.err);
+  // In images of another size, the map shows the same with less detail.
+  const Outcome smaller = surefield_command(
+      {"eval", "--run", folder / "out", "--scale", "0.4", "--json", folder / "smaller.json"}, folder.path());
+  REQUIRE_MESSAGE(smaller.code == 0, smaller.err);
   const Outcome outcome =
       surefield_command({"eval", "--run", folder / "out", "--json", folder / "out.json"}, folder.path());
   REQUIRE_MESSAGE(outcome.code == 0, outcome.err);
@@ -68,12 +72,16 @@ TEST_CASE("eval --run finds again what the run found, and needs no more than its
   const nlohmann::json metrics = read_json(folder / "out/metrics.json");
   const nlohmann::json json = read_json(folder / "out.json");
   CHECK(json["schema"] == "surefield-evaluation");
+  const double psnr = json["images"]["psnr_db"],
+               other = read_json(folder / "smaller.json")["images"]["psnr_db"];
+  CHECK(other != doctest::Approx(psnr).epsilon(1e-4));
+  CHECK(std::abs(other - psnr) < 10);
   CHECK(json["images"]["held_out"]["frames"] == 1);
   CHECK(json["memory"] == metrics["memory"]);
   CHECK(json["map"]["file_megabytes"].get<double>() ==
         doctest::Approx(1e-6 * static_cast<double>(std::filesystem::file_size(folder / "out/map.ply"))));
   // Poses and map went through files of 9 digits and of floats.
-  for (const char* key : {"psnr_db", "psnr_same_exposure_db", "ssim", "depth_l1_m"}) {
+  for (const char* key : {"psnr_db", "psnr_same_exposure_db", "psnr_covered_db", "ssim", "depth_l1_m"}) {
     CAPTURE(key);
     const double expected = metrics["images"][key];
     CHECK(json["images"][key].get<double>() == doctest::Approx(expected).epsilon(1e-4));
