@@ -64,14 +64,10 @@ void write_stl(const std::filesystem::path& file, const TriangleMesh& mesh) {
 
 }  // namespace
 
-std::string mesh_endings() {
-  return ".ply, .obj, .stl or .glb";
-}
-
 void require_mesh_ending(const std::filesystem::path& file) {
   for (const char* ending : {".ply", ".obj", ".stl", ".glb"})
     if (file.extension() == ending) return;
-  throw InputError(file, "has no ending of a mesh format; name it " + mesh_endings());
+  throw InputError(file, "has no ending of a mesh format; name it .ply, .obj, .stl or .glb");
 }
 
 void write_mesh_file(const std::filesystem::path& file, const TriangleMesh& mesh) {

@@ -1,17 +1,12 @@
 #pragma once
 
 #include <filesystem>
-#include <string>
-#include <vector>
 
 #include "engine/formats/triangle_mesh.h"
 
 namespace surefield {
 
-/// The endings that write_mesh_file() knows, for people: ".ply, .obj, .stl or .glb".
-std::string mesh_endings();
-
-/// Throws InputError where the file's ending is none of these.
+/// Throws InputError where the file's ending is none of .ply, .obj, .stl and .glb.
 void require_mesh_ending(const std::filesystem::path& file);
 
 /// Writes a mesh in the format that the file's ending names: PLY (write_mesh()), Wavefront OBJ (text; colours

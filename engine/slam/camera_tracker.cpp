@@ -50,15 +50,15 @@ std::optional<CameraMotion> CameraTracker::last_motion() const {
 }
 
 /// By how much constant velocity was wrong about the last frame; nothing where that cannot be told.
-PredictionError CameraTracker::last_error() const {
+std::optional<PredictionError> CameraTracker::last_error() const {
   const std::size_t n = history_.size();
-  if (n < 3) return {};
+  if (n < 3) return std::nullopt;
   for (std::size_t i = n - 3; i < n; ++i)
-    if (history_.report(i).state != TrackingState::Good) return {};
+    if (history_.report(i).state != TrackingState::Good) return std::nullopt;
   const Pose last = history_.world_to_camera(n - 2);
   const Pose predicted = last * history_.world_to_camera(n - 3).inverse() * last;
   const Pose off = history_.world_to_camera(n - 1) * predicted.inverse();
-  return {off.translation().norm(), Eigen::AngleAxisd(off.rotation()).angle()};
+  return PredictionError{off.translation().norm(), Eigen::AngleAxisd(off.rotation()).angle()};
 }
 
 /// Aligns a frame from `start`. What it leaves open is as predicted: without that, the noise of the images
@@ -178,7 +178,7 @@ void CameraTracker::accept(const FrameReport& report) {
   if (report.state != TrackingState::Good) return;
   if (valid_after_keyframe_ == 0) valid_after_keyframe_ = report.valid_fraction;
   recent_.push_back({report.tracking_loss, report.explained / report.valid_fraction, report.explained,
-                     report.seen_through, last_error()});
+                     report.seen_through, last_error().value_or(usual_fit().error)});
   if (recent_.size() > kRecent) recent_.pop_front();
 }
 

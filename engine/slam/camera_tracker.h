@@ -56,7 +56,7 @@ class CameraTracker {
   TrackingState state_of(const TrackingResult& result) const;
   bool is_near_last(const Pose& world_to_camera) const;
   bool is_better(const TrackingResult& result, const TrackingResult& other) const;
-  PredictionError last_error() const;
+  std::optional<PredictionError> last_error() const;
   TrackingResult align(FrameHandle image, const Pose& start, const TrackingSettings& tracking) const;
   TrackingResult retry(FrameHandle image, FrameFeatures& features, const TrackingSettings& tracking,
                        TrackingResult best, FrameReport& report) const;
