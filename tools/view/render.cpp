@@ -154,8 +154,6 @@ void write_pictures(const RenderOptions& options, const Camera& camera, const Ch
       {.width = k.width, .height = k.height, .colour = colour.data, .depth = sensor_depth.data()}, k);
   for (ViewMode mode : modes) {
     ViewSettings view = options.view;
-    view.background.setZero();  // a picture is data, as the other outputs are
-    view.checker = 0;
     view.mode = mode;
     painter.paint(camera, view);
     write_png(std::filesystem::path(options.out) / fmt::format("{}.png", info_of(mode).name),
