@@ -12,14 +12,15 @@ set(surefield_rests_on_gpu types)
 set(surefield_rests_on_primitives types gpu)
 set(surefield_rests_on_splat types gpu primitives)
 set(surefield_rests_on_places types io)
-set(surefield_rests_on_slam types config splat places)
+set(surefield_rests_on_graph types)
+set(surefield_rests_on_slam types config splat places graph)
 set(surefield_rests_on_session types io config formats sources splat slam)
 set(surefield_rests_on_synth types io formats sources gpu)
 set(surefield_rests_on_viewer types io formats gpu splat)
 set(surefield_rests_on_window types io config formats gpu splat viewer)
-set(surefield_rests_on_tools types io config formats sources mesh eval report gpu primitives splat places slam session synth
+set(surefield_rests_on_tools types io config formats sources mesh eval report gpu primitives splat places graph slam session synth
     viewer window)
-set(surefield_all_rooms types io config formats sources mesh eval report gpu primitives splat places slam session synth viewer
+set(surefield_all_rooms types io config formats sources mesh eval report gpu primitives splat places graph slam session synth viewer
     window tools)
 
 # surefield_resolve_rooms(<variable> <room>...): these rooms and all that they rest on, in the order above; "all" is every one.
