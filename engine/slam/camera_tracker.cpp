@@ -24,6 +24,15 @@ constexpr TrackingFit kFirstFit{.loss = 0, .share = 0.5, .explained = 0.5, .seen
 
 constexpr int kFewestInliers = 15;  // features that a pose is told by
 constexpr int kMatched = 10;        // keyframes that a frame's features are compared with, the newest ones
+// Of all keyframes, those that look most like a frame that is lost, and from how many of them it is tracked.
+constexpr int kPlaces = 10;
+constexpr std::size_t kTriedPlaces = 3;
+
+TrackingSettings made_patient(TrackingSettings tracking) {
+  tracking.adam.iterations *= 2;
+  tracking.gauss_newton.renders *= 2;
+  return tracking;
+}
 
 bool is_certain(const PoseCovariance& covariance) {
   return position_sigma(covariance) < kPoorPosition && rotation_sigma(covariance) < kPoorRotation;
@@ -72,14 +81,19 @@ TrackingResult CameraTracker::align(FrameHandle image, const Pose& start,
 }
 
 void CameraTracker::track(FrameHandle image, FrameFeatures& features, const Pose& start,
-                          FrameReport& report) const {
+                          const Approach& approach, FrameReport& report) const {
   TrackingSettings tracking = settings_.tracking;
   if (history_.size() == 1)
     tracking.adam.iterations = std::max(tracking.adam.iterations, tracking.adam.first_iterations);
   TrackingResult result = align(image, start, tracking);
   report.tracking_iterations = result.iterations;
   report.tracking_ms = result.milliseconds;
-  if (state_of(result) != TrackingState::Good) result = retry(image, features, tracking, result, report);
+  if (state_of(result) != TrackingState::Good) {
+    const TrackingSettings patient = made_patient(tracking);
+    result = retry(image, features, patient, result, report);
+    if (state_of(result) == TrackingState::Lost)
+      result = find_again(image, features, patient, approach, result, report);
+  }
   report.state = state_of(result);
   report.world_to_camera =
       report.lost() ? history_.world_to_camera(history_.size() - 1) : result.world_to_camera;
@@ -94,20 +108,49 @@ void CameraTracker::track(FrameHandle image, FrameFeatures& features, const Pose
 TrackingResult CameraTracker::retry(FrameHandle image, FrameFeatures& features,
                                     const TrackingSettings& tracking, TrackingResult best,
                                     FrameReport& report) const {
-  TrackingSettings patient = tracking;
-  patient.adam.iterations *= 2;
-  patient.gauss_newton.renders *= 2;
   std::vector<Pose> starts;
   if (const auto pose = pose_by_features(features)) starts.push_back(*pose);
   starts.push_back(history_.world_to_camera(history_.size() - 1));
   starts.push_back(keyframes_.world_to_camera(keyframes_.newest()));
   for (const Pose& start : starts) {
     if (state_of(best) == TrackingState::Good) break;
-    const TrackingResult other = align(image, start, patient);
+    const TrackingResult other = align(image, start, tracking);
     ++report.retries;
     report.tracking_iterations += other.iterations;
     report.tracking_ms += other.milliseconds;
     if (is_better(other, best)) best = other;
+  }
+  return best;
+}
+
+/// In the whole map: at the keyframes that look most like the frame, of which features tell its pose.
+TrackingResult CameraTracker::find_again(FrameHandle image, FrameFeatures& features,
+                                         const TrackingSettings& tracking, const Approach& approach,
+                                         TrackingResult best, FrameReport& report) const {
+  struct Place {
+    int keyframe, inliers;
+    Pose pose;
+  };
+  std::vector<Place> places;
+  const PlacedFeatures& own = features.get();
+  for (int k : best_apart(keyframes_.places().similarities(own.descriptors), kPlaces, 0, 0)) {
+    const auto match =
+        match_rigidly(keyframes_[k].features, own, noise_of(settings_.sensor), kFewestInliers);
+    if (match) places.push_back({k, match->inliers, match->from_to * keyframes_.world_to_camera(k)});
+  }
+  std::stable_sort(places.begin(), places.end(),
+                   [](const Place& a, const Place& b) { return a.inliers > b.inliers; });
+  if (places.size() > kTriedPlaces) places.resize(kTriedPlaces);
+  for (const Place& place : places) {
+    approach(place.pose);
+    const TrackingResult other =
+        engine_.track(image, {intrinsics_, place.pose}, tracking, keyframes_.references_at(place.keyframe));
+    ++report.retries;
+    report.tracking_iterations += other.iterations;
+    report.tracking_ms += other.milliseconds;
+    if (state_of(other) != TrackingState::Good) continue;
+    report.found_at = place.keyframe;
+    return other;
   }
   return best;
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <deque>
+#include <functional>
 
 #include "engine/slam/depth_timing.h"
 #include "engine/slam/frame_features.h"
@@ -38,10 +39,13 @@ class CameraTracker {
   std::optional<CameraMotion> last_motion() const;
   /// Says what last_motion() is as long as there is only one frame.
   void expect(const CameraMotion& motion) { expected_ = motion; }
-  /// Tracks a frame from `start`, and where that fails from other poses, one of them told by its features;
-  /// fills the report's pose and what it says of tracking. The pose of a lost frame is `start`. Changes
-  /// nothing else.
-  void track(FrameHandle image, FrameFeatures& features, const Pose& start, FrameReport& report) const;
+  /// Has on the device what a frame sees from a pose.
+  using Approach = std::function<void(const Pose&)>;
+  /// Tracks a frame from `start`, and where that fails from other poses, told by its features: near the last
+  /// keyframes, then in the whole map, of which `approach` is asked for the part. Fills the report's pose and
+  /// what it says of tracking. The pose of a lost frame is the last one that was known. Changes nothing else.
+  void track(FrameHandle image, FrameFeatures& features, const Pose& start, const Approach& approach,
+             FrameReport& report) const;
   /// Whether the map explains so much less of a frame's depth than of that of the first frame tracked after
   /// the last keyframe that there should be another.
   bool sees_unmapped(const FrameReport& report) const;
@@ -60,6 +64,8 @@ class CameraTracker {
   TrackingResult align(FrameHandle image, const Pose& start, const TrackingSettings& tracking) const;
   TrackingResult retry(FrameHandle image, FrameFeatures& features, const TrackingSettings& tracking,
                        TrackingResult best, FrameReport& report) const;
+  TrackingResult find_again(FrameHandle image, FrameFeatures& features, const TrackingSettings& tracking,
+                            const Approach& approach, TrackingResult best, FrameReport& report) const;
   std::optional<Pose> pose_by_features(FrameFeatures& features) const;
 
   SplatEngine& engine_;
