@@ -61,6 +61,8 @@ class KeyframeGraph {
   const std::vector<int>& window() const { return window_; }
   /// The keyframes whose images a frame is aligned to beside the map, the newest first.
   std::vector<TrackingReference> references() const;
+  /// Which those are.
+  const std::vector<int>& reference_keyframes() const { return references_; }
   /// The keyframes by which the exposure of a frame is told: those of the last window. Good until the next
   /// change.
   std::vector<LitView> lit_views() const;
