@@ -70,11 +70,27 @@ std::optional<PredictionError> CameraTracker::last_error() const {
   return PredictionError{off.translation().norm(), Eigen::AngleAxisd(off.rotation()).angle()};
 }
 
+/// Aligns a frame from `start`, in the world of the newest keyframe.
+TrackingResult CameraTracker::align_to_newest(FrameHandle image, const Pose& start,
+                                              const TrackingSettings& tracking) const {
+  if (drift_.none()) return engine_.track(image, {intrinsics_, start}, tracking, keyframes_.references());
+  std::vector<TrackingReference> references = keyframes_.references();
+  for (std::size_t i = 0; i < references.size(); ++i) {
+    Pose& pose = references[i].camera.world_to_camera;
+    pose = drift_.seen_from_newest(pose, keyframes_.newest() - keyframes_.reference_keyframes()[i]);
+  }
+  const auto frames = static_cast<double>(history_.next_after_keyframe());
+  const Camera in_newest{intrinsics_, drift_.drifted(start, -frames)};
+  TrackingResult result = engine_.track(image, in_newest, tracking, references);
+  result.world_to_camera = drift_.drifted(result.world_to_camera, frames);
+  return result;
+}
+
 /// Aligns a frame from `start`. What it leaves open is as predicted: without that, the noise of the images
 /// holds the camera where it was.
 TrackingResult CameraTracker::align(FrameHandle image, const Pose& start,
                                     const TrackingSettings& tracking) const {
-  TrackingResult result = engine_.track(image, {intrinsics_, start}, tracking, keyframes_.references());
+  TrackingResult result = align_to_newest(image, start, tracking);
   if (last_motion() && !is_certain(covariance_of(result.evidence)))
     result.world_to_camera = fuse(predict(), usual_fit().error, result.world_to_camera, result.evidence);
   return result;
@@ -223,6 +239,13 @@ void CameraTracker::accept(const FrameReport& report) {
   recent_.push_back({report.tracking_loss, report.explained / report.valid_fraction, report.explained,
                      report.seen_through, last_error().value_or(usual_fit().error)});
   if (recent_.size() > kRecent) recent_.pop_front();
+}
+
+void CameraTracker::begin_keyframe() {
+  valid_after_keyframe_ = 0;
+  if (!drift_.none())
+    drift_.begin_keyframe(keyframes_.world_to_camera(keyframes_.newest()),
+                          static_cast<double>(history_.next_after_keyframe()) - 1);
 }
 
 }  // namespace surefield

@@ -8,6 +8,7 @@
 #include "engine/slam/frame_history.h"
 #include "engine/slam/keyframe_graph.h"
 #include "engine/slam/pose_covariance.h"
+#include "engine/slam/simulated_drift.h"
 
 namespace surefield {
 
@@ -31,7 +32,8 @@ class CameraTracker {
         settings_(settings),
         intrinsics_(intrinsics),
         keyframes_(keyframes),
-        history_(history) {}
+        history_(history),
+        drift_(settings.drift) {}
 
   /// Where the next frame is thought to be, world to camera. Needs a frame before it.
   Pose predict() const;
@@ -52,8 +54,8 @@ class CameraTracker {
 
   /// The frame that was tracked counts.
   void accept(const FrameReport& report);
-  /// There is a new keyframe.
-  void begin_keyframe() { valid_after_keyframe_ = 0; }
+  /// There is a new keyframe, the frame that was added last; the history does not know of it yet.
+  void begin_keyframe();
 
  private:
   TrackingFit usual_fit() const;
@@ -61,6 +63,8 @@ class CameraTracker {
   bool is_near_last(const Pose& world_to_camera) const;
   bool is_better(const TrackingResult& result, const TrackingResult& other) const;
   std::optional<PredictionError> last_error() const;
+  TrackingResult align_to_newest(FrameHandle image, const Pose& start,
+                                 const TrackingSettings& tracking) const;
   TrackingResult align(FrameHandle image, const Pose& start, const TrackingSettings& tracking) const;
   TrackingResult retry(FrameHandle image, FrameFeatures& features, const TrackingSettings& tracking,
                        TrackingResult best, FrameReport& report) const;
@@ -73,6 +77,7 @@ class CameraTracker {
   const Intrinsics intrinsics_;
   const KeyframeGraph& keyframes_;
   const FrameHistory& history_;
+  SimulatedDrift drift_;
   std::deque<TrackingFit> recent_;        ///< of the last good frames
   std::optional<CameraMotion> expected_;  ///< to the second frame, once it has been tracked for that alone
   double valid_after_keyframe_ = 0;       ///< valid_fraction of the first frame tracked after it; 0: none yet

@@ -72,6 +72,8 @@ class KeyframeGraph {
   std::vector<TrackingReference> references() const;
   /// Those of a frame that is taken at keyframe `k`.
   std::vector<TrackingReference> references_at(int k) const;
+  /// Which those are.
+  const std::vector<int>& reference_keyframes() const { return references_; }
   /// The keyframes by which the exposure of a frame is told: those of the last window. Good until the next
   /// change.
   std::vector<LitView> lit_views() const;

@@ -234,8 +234,8 @@ Frame Slam::Implementation::add_keyframe(const Frame& frame, Sighting sighting) 
     keyframe.frame = engine.load(view_of(mapped, settings));
   }
   keyframes.add(std::move(keyframe), std::move(sighting.descriptor));
-  history.make_last_keyframe();
   tracker.begin_keyframe();
+  history.make_last_keyframe();
   return mapped;
 }
 
