@@ -39,6 +39,7 @@ void add_commands(CLI::App& program, surefield::Action& action) {
   surefield::add_render(program, action);
   surefield::add_view(program, action);
   surefield::add_export(program, action);
+  surefield::add_graph(program, action);
   surefield::add_mesh(program, action);
   surefield::add_synth(program, action);
   surefield::add_places(program, action);

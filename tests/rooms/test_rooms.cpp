@@ -72,7 +72,7 @@ TEST_CASE("no include runs upward") {
 
 TEST_CASE("files, formats, sources, evaluation, meshes and reports need no Vulkan") {
   for (const char* room :
-       {"types", "io", "config", "formats", "sources", "places", "mesh", "eval", "report"}) {
+       {"types", "io", "config", "formats", "sources", "places", "graph", "mesh", "eval", "report"}) {
     INFO(room);
     CHECK_FALSE(closure(room).contains("gpu"));
   }

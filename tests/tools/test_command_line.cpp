@@ -24,7 +24,7 @@ TEST_CASE("help teaches every subcommand with an example") {
   const Outcome help = surefield_command({"--help"}, folder.path());
   CHECK(help.code == 0);
   for (const char* name : {"run", "eval", "report", "tables", "inspect", "fetch", "render", "export", "bench",
-                           "basin", "devices"}) {
+                           "basin", "graph", "devices"}) {
     CAPTURE(name);
     CHECK(contains(help.out, std::string("\n  ") + name + " "));
     const Outcome own = surefield_command({name, "--help"}, folder.path());

@@ -33,6 +33,7 @@ void add_view(CLI::App& program, Action& action);
 void add_report(CLI::App& program, Action& action);
 void add_tables(CLI::App& program, Action& action);
 void add_export(CLI::App& program, Action& action);
+void add_graph(CLI::App& program, Action& action);
 void add_mesh(CLI::App& program, Action& action);
 void add_synth(CLI::App& program, Action& action);
 void add_places(CLI::App& program, Action& action);
