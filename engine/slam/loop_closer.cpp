@@ -37,17 +37,14 @@ std::optional<int> LoopCloser::close(int before, const PoseCovariance& covarianc
   return std::nullopt;
 }
 
-/// As the poses are now that the newest keyframe is mapped.
+/// As the poses are now that the newest keyframe is mapped. One measurement a keyframe: those to others that it
+/// was aligned to as well err with it, and would make a chain that does not bend.
 void LoopCloser::add_odometry(int before, const PoseCovariance& covariance) {
+  if (before < 0) return;
   const int newest = keyframes_.newest();
-  const Matrix6 information = pair_information(covariance, keyframes_[newest]);
-  const auto add = [&](int k) {
-    odometry_.push_back({k, newest, keyframes_.world_to_camera(newest) * keyframes_.world_to_camera(k).inverse(),
-                         information});
-  };
-  if (before >= 0) add(before);
-  for (int k : keyframes_.window())
-    if (k != before && k != newest && !odometer_.has_left(k, newest)) add(k);
+  odometry_.push_back({before, newest,
+                       keyframes_.world_to_camera(newest) * keyframes_.world_to_camera(before).inverse(),
+                       pair_information(covariance, keyframes_[newest])});
 }
 
 /// Judges the candidates, the best first, until one is right.
@@ -89,12 +86,19 @@ bool LoopCloser::correct() {
   for (const Keyframe& keyframe : keyframes_.all())
     graph.add_vertex(keyframe.camera.world_to_camera, graph.vertices() == 0);
   for (const RelativePose& edge : odometry_) graph.add_edge(edge);
-  std::vector<int> loops;
-  for (const Loop& loop : loops_)
-    if (loop.verdict == LoopVerdict::Accepted || loop.verdict == LoopVerdict::Agreed)
-      loops.push_back(graph.add_edge(loop.measured, kLoopKernel));
-  graph.solve();
-  for (int loop : loops)
+  const int loops = graph.edges();
+  const auto add_loops = [&](const RobustKernel& kernel) {
+    while (graph.edges() > loops) graph.remove_edge(graph.edges() - 1);
+    for (const Loop& loop : loops_)
+      if (loop.verdict == LoopVerdict::Accepted || loop.verdict == LoopVerdict::Agreed)
+        graph.add_edge(loop.measured, kernel);
+    graph.solve();
+  };
+  // Before they are followed, loops are so far off that a kernel would leave them out; afterwards it lets go of
+  // those that are not like the others.
+  add_loops({});
+  add_loops(kLoopKernel);
+  for (int loop = loops; loop < graph.edges(); ++loop)
     if (graph.chi2(loop) > kContradicted) return false;
   apply(graph);
   return true;

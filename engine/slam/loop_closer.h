@@ -27,7 +27,7 @@ class LoopCloser {
 
   /// All that was judged, in the order of the newer keyframe.
   const std::vector<Loop>& loops() const { return loops_; }
-  /// The other measurements between keyframes: from each to the one before it and to those of its window.
+  /// The other measurements between keyframes: from each to the one that it was tracked after.
   const std::vector<RelativePose>& odometry() const { return odometry_; }
 
  private:
