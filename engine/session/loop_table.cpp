@@ -17,10 +17,6 @@ std::string information_text(const Matrix6& information) {
   return text;
 }
 
-bool counts(const Loop& loop) {
-  return loop.verdict == LoopVerdict::Accepted || loop.verdict == LoopVerdict::Agreed;
-}
-
 }  // namespace
 
 std::string loops_csv(const std::vector<Loop>& loops, const std::vector<int>& frames) {
@@ -37,7 +33,7 @@ std::string loops_csv(const std::vector<Loop>& loops, const std::vector<int>& fr
         frames[static_cast<std::size_t>(measured.from)], frames[static_cast<std::size_t>(measured.to)],
         loop.similarity, loop.inliers, loop.depth.shared, loop.depth.agreeing, loop.depth.seen_through,
         100 * loop.correction_position, loop.correction_rotation * 180 / std::numbers::pi,
-        loop.correction_pixels, counts(loop) ? 1 : 0, name_of(loop.verdict), t.x(), t.y(), t.z(), q.x(), q.y(),
+        loop.correction_pixels, loop.counts() ? 1 : 0, name_of(loop.verdict), t.x(), t.y(), t.z(), q.x(), q.y(),
         q.z(), q.w(), information_text(measured.information));
   }
   return text;

@@ -41,6 +41,9 @@ struct Loop {
   double correction_rotation = 0;  ///< radians
   double correction_pixels = 0;    ///< by how much what it sees moves in the old image, the median
   LoopVerdict verdict = LoopVerdict::FewMatches;
+
+  /// Whether it is taken for true.
+  bool counts() const { return verdict == LoopVerdict::Accepted || verdict == LoopVerdict::Agreed; }
 };
 
 }  // namespace surefield

@@ -90,8 +90,7 @@ bool LoopCloser::correct() {
   const auto add_loops = [&](const RobustKernel& kernel) {
     while (graph.edges() > loops) graph.remove_edge(graph.edges() - 1);
     for (const Loop& loop : loops_)
-      if (loop.verdict == LoopVerdict::Accepted || loop.verdict == LoopVerdict::Agreed)
-        graph.add_edge(loop.measured, kernel);
+      if (loop.counts()) graph.add_edge(loop.measured, kernel);
     graph.solve();
   };
   // Before they are followed, loops are so far off that a kernel would leave them out; afterwards it lets go of

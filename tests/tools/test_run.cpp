@@ -80,13 +80,14 @@ TEST_CASE("a run leaves its results, and metrics of the documented schema") {
 
   const nlohmann::json json = read_json(folder / "out/metrics.json");
   CHECK(keys(json) == std::set<std::string>{"schema", "version", "run", "status", "error", "date", "program",
-                                            "device", "dataset", "frames", "time", "map", "memory",
+                                            "device", "dataset", "frames", "time", "map", "memory", "loops",
                                             "trajectory", "images", "skipped", "per_frame", "up"});
   CHECK(json["schema"] == "surefield-metrics");
   CHECK(json["version"] == 1);
   CHECK(contains(read_file(folder / "out/log.txt"), "run " + json["run"]["id"].get<std::string>()));
   CHECK(keys(json["run"]["files"]) ==
-        std::set<std::string>{"trajectory.txt", "keyframes.txt", "map.ply", "frames.csv", "config.yaml"});
+        std::set<std::string>{"trajectory.txt", "trajectory_online.txt", "keyframes.txt", "map.ply", "frames.csv",
+                              "loops.csv", "config.yaml"});
   CHECK(json["status"] == "completed");
   CHECK(json["frames"] == nlohmann::json{{"total", 3},
                                          {"fed", 3},
@@ -132,7 +133,7 @@ TEST_CASE("frames.csv says of each frame what metrics.json says") {
   std::string line;
   std::getline(csv, line);
   CHECK(line ==
-        "index,timestamp_s,keyframe,state,lost,gain_red,gain_green,gain_blue,retries,loss,valid_fraction,"
+        "index,timestamp_s,keyframe,state,lost,gain_red,gain_green,gain_blue,retries,found_at,loss,valid_fraction,"
         "explained,seen_through,moved,sigma_cm,sigma_deg,covariance,tracking_"
         "iterations,tracking_ms,"
         "mapping_iterations,mapping_ms,gaussians,uncertain_gaussians,device_gaussians,"
@@ -169,7 +170,8 @@ TEST_CASE("[slow] the same run gives the same bytes, and a quiet one prints noth
   const Outcome quiet = surefield_command(arguments, folder.path());
   CHECK(quiet.code == 0);
   CHECK(quiet.out + quiet.err == "");
-  for (const char* name : {"trajectory.txt", "keyframes.txt", "map.ply", "config.yaml"}) {
+  for (const char* name :
+       {"trajectory.txt", "trajectory_online.txt", "keyframes.txt", "loops.csv", "map.ply", "config.yaml"}) {
     CAPTURE(name);
     CHECK(read_file(folder / "first" / name) == read_file(folder / "second" / name));
   }

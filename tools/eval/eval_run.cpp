@@ -20,17 +20,13 @@ namespace surefield {
 
 namespace {
 
-/// The errors of all frames and of the keyframes; none where the dataset does not know enough poses.
-struct TrajectoryErrors {
-  std::optional<TrajectoryMetrics> frames;
-  std::optional<TrajectoryMetrics> keyframes;
-};
-
-TrajectoryErrors measure_trajectory(const RunFolder& run, const Dataset& dataset) {
-  TrajectoryErrors errors;
+/// None where the dataset does not know enough poses.
+RunAccuracy measure_trajectory(const RunFolder& run, const Dataset& dataset) {
+  RunAccuracy errors;
   if (!dataset.ground_truth) return errors;
   try {
     errors.frames = evaluate_trajectory(run.trajectory, *dataset.ground_truth);
+    if (run.online) errors.online = evaluate_trajectory(*run.online, *dataset.ground_truth);
   } catch (const InputError& error) {
     fmt::print(stderr, "surefield: note: the trajectory is not measured: {}\n", error.what());
     return errors;
@@ -89,10 +85,10 @@ double file_megabytes(const RunFolder& run) {
   return error ? NAN : static_cast<double>(bytes) / 1e6;
 }
 
-nlohmann::ordered_json to_json(const RunFolder& run, const TrajectoryErrors& errors,
+nlohmann::ordered_json to_json(const RunFolder& run, const RunAccuracy& errors,
                                const std::optional<MapQuality>& images) {
   nlohmann::ordered_json json = {{"schema", "surefield-evaluation"}, {"version", 1}};
-  json["trajectory"] = trajectory_json(errors.frames, errors.keyframes);
+  json["trajectory"] = trajectory_json(errors);
   json["images"] = quality_json(images);
   for (const char* part : {"time", "map", "memory"}) json[part] = run.metrics.at(part);
   const double size = file_megabytes(run);
@@ -125,7 +121,7 @@ int evaluate_run(const EvalRunOptions& options) {
   catch_interrupts();
   const RunFolder run = read_run(options.run);
   const Dataset dataset = open_dataset_of(run, options.dataset);
-  const TrajectoryErrors errors = measure_trajectory(run, dataset);
+  const RunAccuracy errors = measure_trajectory(run, dataset);
   const std::optional<MapQuality> images =
       measure_images(options, run, *dataset.recording, views_of(run, *dataset.recording),
                      of_tracked_camera(run.trajectory, *dataset.recording));
@@ -139,8 +135,7 @@ int evaluate_run(const EvalRunOptions& options) {
     if (!options.views.empty()) json["views"] = quality_json(views);
     write_file(options.json, [&](std::ostream& stream) { stream << json.dump(2) << "\n"; });
   }
-  if (errors.frames) fmt::print("{}", trajectory_table(*errors.frames));
-  if (errors.keyframes) fmt::print("keyframes' ATE   {:.3f} cm\n", 100 * errors.keyframes->ate.rmse);
+  fmt::print("{}", trajectory_table(errors));
   if (images) fmt::print("{}", quality_table(*images));
   if (views) fmt::print("from the views of {}\n{}", options.views, quality_table(*views));
   fmt::print("{}", cost_lines(run));

@@ -99,6 +99,8 @@ RunFolder read_run(const std::filesystem::path& folder) {
   run.metrics = read_metrics(folder / "metrics.json");
   run.trajectory = read_trajectory(folder / "trajectory.txt");
   run.keyframes = read_trajectory(folder / "keyframes.txt");
+  const std::filesystem::path online = folder / "trajectory_online.txt";
+  if (std::filesystem::exists(online)) run.online = read_trajectory(online);
   run.configuration = read_file(folder / "config.yaml");
   check_run_files(run.metrics, folder);
   if (run.text("/status") == "running") cut_to_common_length(run);

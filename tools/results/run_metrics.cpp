@@ -109,9 +109,10 @@ std::string metrics_json(const RunRecord& record, const nlohmann::ordered_json& 
                                  {"measured", record.up->measured},
                                  {"given", record.up->given}})
                          : Json(nullptr);
+  json["loops"] = {{"looked_at", record.loops.size()}, {"accepted", count_loops(record.loops)}};
   json["memory"] = {{"device_peak_mb", static_cast<double>(record.engine.device_peak_bytes) / kMegabyte},
                     {"host_peak_mb", host_peak_bytes() / kMegabyte}};
-  json["trajectory"] = trajectory_json(record.accuracy, record.keyframe_accuracy);
+  json["trajectory"] = trajectory_json(record.accuracy);
   json["images"] = quality_json(record.images);
   json["skipped"] = Json::array();
   for (const SkippedFrame& frame : record.skipped) {

@@ -12,6 +12,7 @@
 #include "engine/sources/frame_stream.h"
 #include "engine/viewer/up_direction.h"
 #include "tools/results/map_quality.h"
+#include "tools/results/trajectory_report.h"
 
 namespace surefield {
 
@@ -36,12 +37,13 @@ struct RunRecord {
   std::vector<SkippedFrame> skipped;
   std::vector<FrameReport> frames;  ///< those fed
   Trajectory trajectory;            ///< one pose per frame fed, of the tracked camera
+  Trajectory online;                ///< the same, as they were when each frame came
   Trajectory keyframes;             ///< of the tracked camera
+  std::vector<Loop> loops;          ///< places that looked known
   double setup_seconds = 0;         ///< opening the device, building its programs
   double seconds = 0;               ///< from the first frame asked for to the last one done
   EngineReport engine;
-  std::optional<TrajectoryMetrics> accuracy;  ///< where there is ground truth
-  std::optional<TrajectoryMetrics> keyframe_accuracy;
+  RunAccuracy accuracy;
   std::optional<MapQuality> images;
   std::optional<UpDirection> up;  ///< in the world of the trajectory, once the run has ended
 
@@ -73,6 +75,9 @@ int count_frames(const std::vector<FrameReport>& frames, Test test) {
   for (const FrameReport& frame : frames) count += test(frame) ? 1 : 0;
   return count;
 }
+
+/// Loops that were taken for true.
+int count_loops(const std::vector<Loop>& loops);
 
 /// metrics.json, as docs/evaluation.md describes it; `files` is that of run_files_json().
 std::string metrics_json(const RunRecord& record, const nlohmann::ordered_json& files);

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <fmt/format.h>
 
 #include <cmath>
@@ -94,16 +95,19 @@ IterationTotal mapping_total(const std::vector<FrameReport>& frames) {
   return total(frames, &FrameReport::mapping_iterations, &FrameReport::mapping_ms);
 }
 
+int count_loops(const std::vector<Loop>& loops) {
+  return static_cast<int>(std::count_if(loops.begin(), loops.end(), [](const Loop& l) { return l.counts(); }));
+}
+
 std::string run_summary(const RunRecord& record) {
   std::string text = frames_line(record);
   text += skipped_lines(record);
   text += depth_delay_line(record);
   if (!record.frames.empty())
     text += fmt::format("poses known      {:.1f} % of the frames\n", 100 * record.pose_share());
-  if (record.accuracy) text += trajectory_table(*record.accuracy);
-  if (record.keyframe_accuracy) {
-    text += fmt::format("keyframes' ATE   {:.3f} cm\n", 100 * record.keyframe_accuracy->ate.rmse);
-  }
+  text += trajectory_table(record.accuracy);
+  if (const int loops = count_loops(record.loops))
+    text += fmt::format("places again     {}, {} looked known (loops.csv)\n", loops, record.loops.size());
   text += fmt::format("speed            {:.2f} frames/s, {:.1f} s in all\n", record.frames_per_second(),
                       record.seconds);
   text += cost_line("tracking", tracking_total(record.frames), record.frames.size(), "frame");

@@ -25,12 +25,14 @@ nlohmann::ordered_json trajectory_json(const TrajectoryMetrics& metrics) {
   return json;
 }
 
-nlohmann::ordered_json trajectory_json(const std::optional<TrajectoryMetrics>& frames,
-                                       const std::optional<TrajectoryMetrics>& keyframes) {
-  if (!frames) return nullptr;
-  nlohmann::ordered_json json = trajectory_json(*frames);
-  json["keyframes_ate_rmse_m"] = nullptr;
-  if (keyframes) json["keyframes_ate_rmse_m"] = keyframes->ate.rmse;
+nlohmann::ordered_json trajectory_json(const RunAccuracy& accuracy) {
+  if (!accuracy.frames) return nullptr;
+  nlohmann::ordered_json json = trajectory_json(*accuracy.frames);
+  const auto add = [&](const char* key, const std::optional<TrajectoryMetrics>& metrics) {
+    json[key] = metrics ? nlohmann::ordered_json(metrics->ate.rmse) : nlohmann::ordered_json(nullptr);
+  };
+  add("online_ate_rmse_m", accuracy.online);
+  add("keyframes_ate_rmse_m", accuracy.keyframes);
   return json;
 }
 
@@ -48,6 +50,16 @@ std::string trajectory_table(const TrajectoryMetrics& metrics) {
                       centimetres(metrics.ate.median), centimetres(metrics.ate.max));
   if (metrics.rpe_frame.motions > 0) text += relative("RPE per frame", metrics.rpe_frame);
   if (metrics.rpe_second.motions > 0) text += relative("RPE per second", metrics.rpe_second);
+  return text;
+}
+
+std::string trajectory_table(const RunAccuracy& accuracy) {
+  std::string text = accuracy.frames ? trajectory_table(*accuracy.frames) : "";
+  const auto add = [&](const char* name, const std::optional<TrajectoryMetrics>& metrics) {
+    if (metrics) text += fmt::format("{:<16} {:.3f} cm\n", name, 100 * metrics->ate.rmse);
+  };
+  add("ATE, online", accuracy.online);
+  add("keyframes' ATE", accuracy.keyframes);
   return text;
 }
 

@@ -36,10 +36,14 @@ void complete_record(RunRecord& record, const Slam& slam, const FrameSource& sou
                      const Trajectory* truth) {
   record.frames = slam.reports();
   record.trajectory = slam.trajectory();
+  record.online = slam.online_trajectory();
   record.keyframes = slam.keyframes();
+  record.loops = slam.loops();
   record.engine = slam.engine_report();
-  record.accuracy = accuracy(of_reference_camera(record.trajectory, source), truth);
-  record.keyframe_accuracy = accuracy(of_reference_camera(record.keyframes, source), truth);
+  const auto errors = [&](const Trajectory& tracked) {
+    return accuracy(of_reference_camera(tracked, source), truth);
+  };
+  record.accuracy = {errors(record.trajectory), errors(record.online), errors(record.keyframes)};
 }
 
 /// The frames that the final map is compared with, by their places among those fed: all that have a pose, or
