@@ -7,7 +7,7 @@ namespace surefield {
 /// What became of a place that looked known (docs/places.md, "Loops").
 enum class LoopVerdict {
   Accepted,     ///< it is that place: the poses were corrected by it
-  Agreed,       ///< it is, and the poses say so already: within a fraction of a pixel
+  Agreed,       ///< it is, and the poses say so already, as well as can be measured
   Waiting,      ///< it seems to be; no keyframe beside it has said the same yet
   FewMatches,   ///< features that one motion lays on each other are too few
   Clustered,    ///< those lie in one corner of the image
@@ -39,7 +39,10 @@ struct Loop {
   DepthAgreement depth;
   double correction_position = 0;  ///< by which the new keyframe's pose is off then, metres
   double correction_rotation = 0;  ///< radians
-  double correction_pixels = 0;    ///< by how much what it sees moves in the old image, the median
+  double correction_pixels = 0;    ///< by how much what it sees moves in its image then, the median
+  /// The squared correction in deviations of the measurement; below 12.6 in 19 of 20 cases where the poses are
+  /// right.
+  double correction_chi2 = 0;
   LoopVerdict verdict = LoopVerdict::FewMatches;
 
   /// Whether it is taken for true.

@@ -3,6 +3,7 @@
 #include <Eigen/Cholesky>
 #include <numbers>
 
+#include "engine/graph/twist.h"
 #include "engine/slam/depth_agreement.h"
 #include "engine/slam/pose_covariance.h"
 
@@ -23,7 +24,7 @@ constexpr double kLeastShared = 0.3, kLeastAgreeing = 0.7, kMostThrough = 0.05;
 // angle.
 constexpr double kDriftStart = 0.1, kDriftOfPath = 0.05, kDriftOfTurn = 0.1;
 constexpr double kTurnStart = 3 * kRadian, kTurnOfTurn = 0.05, kTurnOfPath = 3 * kRadian;
-constexpr double kSettledPixels = 0.5;  // pixels of correction that are none
+constexpr double kByChance = 12.6;  // chi2 of six numbers that one in twenty exceeds by chance
 
 double typical_depth(const Keyframe& keyframe) {
   return std::max(keyframe.middle.z(), 0.3);
@@ -106,6 +107,8 @@ bool LoopCheck::is_near(int place, const Pose& pose, Loop& loop) const {
   const Pose apart = newest.camera.world_to_camera * pose.inverse();
   loop.correction_position = apart.translation().norm();
   loop.correction_rotation = angle_of(apart);
+  const Vector6 correction = motion_between(pose, newest.camera.world_to_camera);
+  loop.correction_chi2 = correction.dot(loop.measured.information * correction);
   loop.correction_pixels = median_shift({newest.grid, newest.camera}, pose);
   const double path = odometer_.path(place, k), turned = odometer_.turned(place, k);
   const double far = kDriftStart + kDriftOfPath * path + kDriftOfTurn * turned * typical_depth(newest);
@@ -124,7 +127,7 @@ Loop LoopCheck::judge(const LoopCandidate& candidate) const {
   if (!align(candidate.keyframe, pose, loop) || !has_same_depth(candidate.keyframe, pose, loop) ||
       !is_near(candidate.keyframe, pose, loop))
     return loop;
-  loop.verdict = loop.correction_pixels < kSettledPixels ? LoopVerdict::Agreed : LoopVerdict::Waiting;
+  loop.verdict = loop.correction_chi2 < kByChance ? LoopVerdict::Agreed : LoopVerdict::Waiting;
   return loop;
 }
 

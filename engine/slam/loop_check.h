@@ -1,5 +1,6 @@
 #pragma once
 
+#include "engine/slam/frame_report.h"
 #include "engine/slam/loop.h"
 #include "engine/slam/loop_candidates.h"
 

@@ -4,48 +4,17 @@
 #include <optional>
 
 #include "engine/slam/moved_things.h"
+#include "tests/slam/board_view.h"
 
 using namespace surefield;
+using testing::Board;
+using View = testing::BoardView;
 
 namespace {
 
-constexpr int kWidth = 160, kHeight = 120;
-const Intrinsics kIntrinsics{kWidth, kHeight, 130, 130, 79.5, 59.5};
-const DepthNoise kNoise = noise_of(DepthSensor::StructuredLight);
-
-/// Something flat that faces the camera, metres in the world.
-struct Board {
-  double left = 0, right = 0, top = 0, bottom = 0, z = 0;
-};
-constexpr Board kPerson{-0.3, 0.3, -0.6, 1, 1.5};
-
-/// A keyframe at `x` before a wall 3 m away, with boards before it.
-struct View {
-  ColourGrid grid;
-  Camera camera{kIntrinsics, Pose::Identity()};
-
-  explicit View(double x, const std::vector<Board>& boards = {}) {
-    camera.world_to_camera.translation().x() = -x;
-    Frame frame;
-    frame.colour = cv::Mat(kHeight, kWidth, CV_8UC3, cv::Scalar::all(90));
-    frame.depth = cv::Mat(kHeight, kWidth, CV_32FC1, cv::Scalar(3));
-    for (int v = 0; v < kHeight; ++v)
-      for (int u = 0; u < kWidth; ++u)
-        for (const Board& b : boards) {
-          const double px = x + b.z * (u - kIntrinsics.cx) / kIntrinsics.fx,
-                       py = b.z * (v - kIntrinsics.cy) / kIntrinsics.fy;
-          auto& z = frame.depth.at<float>(v, u);
-          if (px > b.left && px < b.right && py > b.top && py < b.bottom)
-            z = std::min(z, static_cast<float>(b.z));
-        }
-    grid = make_colour_grid(frame);
-  }
-  DepthView depth() const { return {grid, camera}; }
-};
-
 std::vector<uint8_t> moved(const View& keyframe, const View& other) {
   const DepthView others[] = {other.depth()};
-  return moved_cells(keyframe.depth(), others, kNoise);
+  return moved_cells(keyframe.depth(), others, testing::kBoardNoise);
 }
 
 }  // namespace
@@ -53,7 +22,7 @@ std::vector<uint8_t> moved(const View& keyframe, const View& other) {
 TEST_CASE(
     "what stands where another keyframe looked through has moved, whichever came first; what it hides has "
     "not") {
-  const View before(0), after(0.25, {kPerson});
+  const View before(0), after(0.25, {testing::kPerson});
   const std::vector<uint8_t> cells = moved(after, before);
   REQUIRE(cells.size() == after.grid.depth.size());
   int person = 0, rest = 0;
@@ -74,14 +43,14 @@ TEST_CASE(
 TEST_CASE(
     "nothing has moved in a scene at rest, seen from two places, nor where the other is blind or did not "
     "look") {
-  const std::vector<Board> still{kPerson, {0.5, 1, -0.5, 1, 2}, {-1.4, -1.36, -1, 1, 1.2}};
+  const std::vector<Board> still{testing::kPerson, {0.5, 1, -0.5, 1, 2}, {-1.4, -1.36, -1, 1, 1.2}};
   CHECK(moved(View(0, still), View(0.4, still)).empty());
   CHECK(moved(View(0.4, still), View(0, still)).empty());
   View blind(0.1);
   std::fill(blind.grid.depth.begin(), blind.grid.depth.end(), 0.0f);
-  CHECK(moved(View(0, {kPerson}), blind).empty());
-  CHECK(moved(View(0, {kPerson}), View(30)).empty());
-  CHECK(moved_cells(View(0, {kPerson}).depth(), {}, kNoise).empty());
+  CHECK(moved(View(0, {testing::kPerson}), blind).empty());
+  CHECK(moved(View(0, {testing::kPerson}), View(30)).empty());
+  CHECK(moved_cells(View(0, {testing::kPerson}).depth(), {}, testing::kBoardNoise).empty());
 }
 
 TEST_CASE("what is thin, small, or as near to what is behind as the sensor can tell, does not count") {

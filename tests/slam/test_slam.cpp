@@ -212,6 +212,33 @@ TEST_CASE("a camera that was covered while it moved on is found again by its fea
   CHECK(position_sigma(found.covariance) > 0);
 }
 
+TEST_CASE("a camera that was carried back to where it was long ago is found there, in the whole map") {
+  const SyntheticRecording recording(device_options(),
+                                     {.path = "turn", .width = 200, .height = 150, .frames = 300});
+  SlamSettings settings = quick_settings();
+  settings.keyframes.interval = 1;
+  Slam slam(settings, recording.intrinsics(), engine_options());
+  // More keyframes than a frame's features are compared with before the whole map is asked.
+  std::vector<int> fed;
+  for (int i = 0; i < 96; i += 6) fed.push_back(i);
+  for (int i : fed) REQUIRE(slam.feed(*recording.load(i).frame).state == TrackingState::Good);
+  const int back = 3;
+  const auto truth = [&](int i) {
+    return recording.ground_truth()[i].camera_to_world.inverse() * recording.ground_truth()[0].camera_to_world;
+  };
+  const FrameReport found = slam.feed(*recording.load(back).frame);
+  CHECK(found.state == TrackingState::Good);
+  CHECK(found.found_at >= 0);
+  CHECK(found.found_at < 3);
+  CHECK((found.world_to_camera * truth(back).inverse()).translation().norm() < 0.02);
+  // From there it goes on.
+  const FrameReport next = slam.feed(*recording.load(back + 2).frame);
+  CHECK(next.state == TrackingState::Good);
+  CHECK(next.found_at == -1);
+  CHECK((next.world_to_camera * truth(back + 2).inverse()).translation().norm() < 0.02);
+  CHECK(slam.online_trajectory().size() == fed.size() + 2);
+}
+
 TEST_CASE("frames of the wrong size and a first frame without depth are refused and change nothing") {
   const SyntheticRecording recording = office(2);
   Slam slam(quick_settings(), recording.intrinsics(), engine_options());
