@@ -54,8 +54,7 @@ Point on_curve(std::array<Point, 4> points, double t, Mix mix) {
 
 /// Value of which `share` of the values are smaller; reorders them.
 float quantile(std::vector<float>& values, double share) {
-  const auto at =
-      values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
+  const auto at = values.begin() + std::lround(share * static_cast<double>(values.size() - 1));
   std::nth_element(values.begin(), at, values.end());
   return *at;
 }

