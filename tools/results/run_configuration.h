@@ -32,6 +32,7 @@ struct RunOptions {
   std::string film;  ///< file of a film of the run; empty: none
   PictureSize film_size{1280, 720};
   bool viewer = false;  ///< shows a window beside the run
+  double ui_scale = 0;  ///< of that window, as ViewerInput::ui_scale
 };
 
 /// Opens the dataset that the options name. Throws InputError; where the options say no delay of the depth

@@ -11,6 +11,7 @@
 #include "tools/run/run_viewer.h"
 #include "tools/shared/command.h"
 #include "tools/shared/interrupt.h"
+#include "tools/shared/ui_scale.h"
 
 namespace surefield {
 
@@ -107,6 +108,7 @@ void add_run(CLI::App& program, Action& action) {
   run->add_flag(
       "--viewer", options->viewer,
       "Shows the map while it grows, in a window; closing it does not end the run (docs/viewer.md)");
+  add_ui_scale_option(*run, options->ui_scale);
   run->add_flag("--overwrite", options->overwrite,
                 "Replaces the earlier run that --out holds; other files that are there stay");
   run->add_flag(
