@@ -42,7 +42,8 @@ std::vector<double> ticks_between(double low, double high, int most) {
   const auto index_before = [&](double step) { return std::floor(high / step + kSlack); };
   double step = round_above((high - low) / most);
   while (index_before(step) - index_after(step) + 1 > most) step = round_above(1.5 * step);
-  for (double i = index_after(step); i <= index_before(step); ++i) ticks.push_back(i * step);
+  const double first = index_after(step) + 0.0;  // without the sign that a zero may have
+  for (double i = first; i <= index_before(step); ++i) ticks.push_back(i * step);
   return ticks;
 }
 

@@ -34,6 +34,7 @@ std::string glfw_problem() {
 GlfwWindow::GlfwWindow(const std::string& title, double scale) : scale_(static_cast<float>(scale)) {
   if (const std::string problem = glfw_problem(); !problem.empty()) throw InputError(problem);
   glfwWindowHint(GLFW_CLIENT_API, GLFW_NO_API);
+  glfwWindowHint(GLFW_VISIBLE, GLFW_FALSE);
   glfwWindowHint(GLFW_SCALE_TO_MONITOR, scale_ > 0 ? GLFW_FALSE : GLFW_TRUE);
   const double size = scale_ > 0 ? scale_ : 1;
   window_ = glfwCreateWindow(static_cast<int>(size * kFirstWidth), static_cast<int>(size * kFirstHeight),

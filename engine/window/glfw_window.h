@@ -24,7 +24,8 @@ struct UserInput {
   bool any = false;  ///< whether anything happened at all, be it that the mouse moved
 };
 
-/// A window of the operating system, without anything in it. Only on the main thread; one at a time.
+/// A window of the operating system, without anything in it, and hidden at first. Only on the main thread;
+/// one at a time.
 class GlfwWindow {
  public:
   /// `scale`: see scale(); 0: as the screen asks. Throws InputError where no window can be shown.
@@ -32,6 +33,9 @@ class GlfwWindow {
   ~GlfwWindow();
   GlfwWindow(const GlfwWindow&) = delete;
   GlfwWindow& operator=(const GlfwWindow&) = delete;
+
+  /// Until now it was hidden.
+  void show() { glfwShowWindow(window_); }
 
   /// The extensions that an instance for it must have.
   std::vector<std::string> instance_extensions() const;

@@ -37,7 +37,8 @@ std::string entry_of(const ViewModeInfo& info, bool possible) {
 }
 
 void draw_modes(const PanelContent& content, ViewerState& state) {
-  if (ImGui::BeginCombo("shows", info_of(state.view.mode).title, ImGuiComboFlags_HeightLargest)) {
+  ImGui::SetNextItemWidth(-1);
+  if (ImGui::BeginCombo("##mode", info_of(state.view.mode).title, ImGuiComboFlags_HeightLargest)) {
     for (const ViewModeInfo& info : view_modes()) {
       const bool possible = !info.needs_sensor || content.has_sensor;
       const auto flags = possible ? ImGuiSelectableFlags_None : ImGuiSelectableFlags_Disabled;
@@ -96,8 +97,7 @@ void draw_timeline(const PanelContent& content, ViewerState& state) {
 }
 
 void draw_run(const PanelContent& content, ViewerState& state, ViewerRequests& requests) {
-  ImGui::TextWrapped("%s", content.status.c_str());
-  ImGui::Text("%u Gaussians", content.gaussians);
+  ImGui::TextWrapped("%s, %u Gaussians", content.status.c_str(), content.gaussians);
   const bool recorded = !content.live && content.trajectory->size() > 1;
   if (content.live || recorded) {
     if (ImGui::Button(state.running ? "Pause" : "Play")) state.running = !state.running;
@@ -122,13 +122,15 @@ void draw_run(const PanelContent& content, ViewerState& state, ViewerRequests& r
 void draw_measuring(const PanelContent& content, ViewerState& state, ViewerRequests& requests) {
   ImGui::Checkbox("tell what is under the mouse", &state.probe);
   if (ImGui::Checkbox("ruler: click two places", &state.ruler)) requests.clear = true;
+  const bool nothing = content.picked.empty() && content.distance.empty();
+  if (!nothing) {
+    ImGui::SameLine(0.75f * kPanelWidth * content.scale);
+    if (ImGui::Button("Forget")) requests.clear = true;
+  }
   for (const std::string& line : content.picked) ImGui::TextUnformatted(line.c_str());
   if (!content.distance.empty()) ImGui::TextUnformatted(content.distance.c_str());
-  if (content.picked.empty() && content.distance.empty()) {
+  if (nothing)
     ImGui::TextDisabled("%s", state.ruler ? "click two places of the map" : "click on the map to know more");
-  } else if (ImGui::Button("Forget")) {
-    requests.clear = true;
-  }
 }
 
 void draw_lines_choice(OverlayChoice& overlay) {

@@ -16,18 +16,23 @@ namespace {
 constexpr std::size_t kMostPlotted = 600;  // frames
 constexpr float kListedKeyframes = 7;      // lines of their list
 
-/// One quantity over the last frames, with its newest value.
-void plot(const PanelContent& content, const char* title, float FrameNumbers::*quantity, const char* format) {
+/// One quantity over the last frames, with its newest value, `beside` the one before; false where none is
+/// known.
+bool plot(const PanelContent& content, float FrameNumbers::*quantity, const char* format, bool beside) {
   const auto& all = *content.numbers;
   const std::size_t first = all.size() - std::min(all.size(), kMostPlotted);
   std::vector<float> values;
   for (std::size_t i = first; i < all.size(); ++i) values.push_back(all[i].*quantity);
   const auto known = [](float value) { return std::isfinite(value); };
-  if (values.empty() || std::none_of(values.begin(), values.end(), known)) return;
+  if (values.empty() || std::none_of(values.begin(), values.end(), known)) return false;
   for (float& value : values) value = known(value) ? value : 0;
   const std::string text = fmt::format(fmt::runtime(format), values.back());
-  ImGui::PlotLines(title, values.data(), static_cast<int>(values.size()), 0, text.c_str(), 0, FLT_MAX,
-                   ImVec2(0.66f * kPanelWidth * content.scale, 2.2f * ImGui::GetTextLineHeight()));
+  if (beside) ImGui::SameLine();
+  ImGui::PushID(format);
+  ImGui::PlotLines("##plot", values.data(), static_cast<int>(values.size()), 0, text.c_str(), 0, FLT_MAX,
+                   ImVec2(0.46f * kPanelWidth * content.scale, 2.4f * ImGui::GetTextLineHeight()));
+  ImGui::PopID();
+  return true;
 }
 
 /// A slider for one setting; wide ranges are stretched at their low end.
@@ -58,10 +63,14 @@ bool draw_setting(NumberSetting& setting) {
 }  // namespace
 
 void draw_plots(const PanelContent& content) {
-  plot(content, "loss", &FrameNumbers::loss, "{:.4f}");
-  plot(content, "FPS", &FrameNumbers::frames_per_second, "{:.2f}");
-  plot(content, "Gaussians", &FrameNumbers::gaussians, "{:.0f}");
-  plot(content, "ATE, cm", &FrameNumbers::ate_cm, "{:.2f}");
+  int drawn = 0;
+  const auto next = [&](float FrameNumbers::*quantity, const char* format) {
+    if (plot(content, quantity, format, drawn % 2 != 0)) ++drawn;
+  };
+  next(&FrameNumbers::loss, "loss {:.4f}");
+  next(&FrameNumbers::frames_per_second, "{:.2f} frames/s");
+  next(&FrameNumbers::gaussians, "{:.0f} Gaussians");
+  next(&FrameNumbers::ate_cm, "ATE {:.2f} cm");
 }
 
 void draw_keyframes(const PanelContent& content, ViewerRequests& requests) {

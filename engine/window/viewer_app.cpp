@@ -37,10 +37,29 @@ ViewerApp::ViewerApp(ViewerInput input)
       painter_(device_),
       presenter_(device_, window_.create_surface(device_.window_handles().instance)),
       interface_(window_, device_, presenter_) {
+  open();
   set_map(std::move(input_.map));
   state_.view.depth_far = static_cast<float>(input_.depth_far);
   state_.running = input_.live != nullptr;
   begin_view();
+}
+
+/// Shows the window. Its first picture takes a while where kernels are compiled for it, so that it says so.
+void ViewerApp::open() {
+  gpu::Array<glsl::uint> grey(device_, "first picture", 1);
+  gpu::Recorder recorder(device_);
+  recorder.fill(grey, 1, 0xFF2B2929);
+  recorder.submit();
+  const auto present = [&] {
+    interface_.lay_out([&] {
+      draw_labels({.scales = false, .waiting = "Preparing the first picture", .scale = window_.scale()});
+    });
+    presenter_.show(grey, {1, 1}, window_.pixels(),
+                    [this](VkCommandBuffer commands) { interface_.draw(commands); });
+  };
+  present();  // hidden, so that the window is not black while that is compiled
+  window_.show();
+  present();
 }
 
 /// In a run, behind the camera; else where all of the map is seen.
@@ -84,6 +103,7 @@ void ViewerApp::run() {
     if (input.any) shown_ = 3;
     play(seconds);
     apply(before);
+    const bool had_map = painter_.gaussians() > 0;
     const bool updated = take_updates();
     if (window_.pixels().minCoeff() <= 0) continue;  // minimised
     if (std::exchange(requests.clear, false)) forget_picks();
@@ -93,7 +113,7 @@ void ViewerApp::run() {
     if (shown_ > 0 || repaint_ || updated) draw(requests);
     fulfil(requests);
     const Clock::time_point done = Clock::now();
-    if (updated && !finished_ && !waits_for_map())
+    if (updated && had_map)  // the first pictures of a map compile kernels
       next_update_ = done + (done - now) * static_cast<int>(1 / kLiveShare - 1);
   }
   if (input_.live && state_.stop_on_close) input_.live->stop();
@@ -103,7 +123,6 @@ void ViewerApp::run() {
 bool ViewerApp::take_updates() {
   if (!input_.live || Clock::now() < next_update_) return false;
   LiveFeed::Update update = input_.live->take();
-  finished_ |= update.finished;
   ViewerScene& scene = input_.scene;
   scene.numbers.insert(scene.numbers.end(), update.numbers.begin(), update.numbers.end());
   if (update.map) set_map(std::move(*update.map));
@@ -115,7 +134,17 @@ bool ViewerApp::take_updates() {
   }
   const bool any = update.map || update.scene || !update.numbers.empty();
   repaint_ |= update.map || update.scene;
+  if (any) shown_ = 3;  // the panel takes its size from what it held before
+  if (update.finished) end_live();
   return any;
+}
+
+/// From now on the run is one that was recorded.
+void ViewerApp::end_live() {
+  input_.live = nullptr;
+  input_.settings.clear();
+  state_.running = false;
+  choose_frame(static_cast<int>(input_.scene.trajectory.size()) - 1);
 }
 
 /// Does what changes of the state ask for.
@@ -137,8 +166,8 @@ ViewMode ViewerApp::shown_mode() const {
 }
 
 bool ViewerApp::has_sensor() const {
-  return input_.live ? !input_.scene.frame.colour.empty()
-                     : input_.load_frame && input_.scene.frame.index >= 0;
+  const SceneFrame& frame = input_.scene.frame;
+  return !frame.colour.empty() || (input_.load_frame && frame.index >= 0);
 }
 
 /// Gives the painter the images of the frame, where a mode needs them.

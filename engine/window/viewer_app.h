@@ -24,9 +24,11 @@ class ViewerApp {
  private:
   using Clock = std::chrono::steady_clock;
 
+  void open();
   void begin_view();
   void set_map(GaussianCloud map);
   bool take_updates();
+  void end_live();
   void apply(const ViewerState& before);
   void handle_keys(const UserInput& input, ViewerRequests& requests);
   bool move_camera(const UserInput& input, double seconds);
@@ -41,7 +43,7 @@ class ViewerApp {
   bool has_sensor() const;
   void load_sensor();
   /// Whether there is no map yet, but will be.
-  bool waits_for_map() const { return input_.live && !finished_ && painter_.gaussians() == 0; }
+  bool waits_for_map() const { return input_.live && painter_.gaussians() == 0; }
   /// That of the picture: what the user has chosen, or the camera's image while there is no map.
   ViewMode shown_mode() const;
   Under look_under(const Eigen::Vector2d& place);
@@ -72,7 +74,6 @@ class ViewerApp {
   ViewCamera camera_;
   ViewerState state_;
   std::string message_;
-  bool finished_ = false;     ///< the run has ended
   bool repaint_ = true;       ///< the picture is not what it should be
   bool new_sensor_ = true;    ///< the painter has not got the images of the frame
   int shown_ = 3;             ///< times to lay the interface out before waiting for events

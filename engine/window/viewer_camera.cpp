@@ -56,6 +56,11 @@ void ViewerApp::choose_frame(int position) {
   ViewerScene& scene = input_.scene;
   state_.position = std::clamp(position, 0, std::max(static_cast<int>(scene.trajectory.size()) - 1, 0));
   if (scene.trajectory.empty() || !scene.trajectory[state_.position].is_finite()) return;
+  if (!input_.load_frame && scene.frame.index != state_.position) {
+    // Of a run that has just ended, there are images of the last frame alone.
+    scene.frame.colour.release();
+    scene.frame.depth.release();
+  }
   scene.frame.index = state_.position;
   scene.frame.camera.world_to_camera = scene.trajectory[state_.position].camera_to_world.inverse();
   repaint_ = true;

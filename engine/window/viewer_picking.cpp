@@ -81,6 +81,7 @@ void ViewerApp::probe(const UserInput& input, Clock::time_point now) {
 
 /// The lines of the scene and those of what was clicked.
 std::vector<Line> ViewerApp::lines(const Camera& camera) const {
+  if (waits_for_map()) return {};
   std::vector<Line> lines = lines_of(input_.scene, state_.overlay);
   if (picked_ && picked_->surface) {
     add_mark(lines, *picked_->surface, camera, kMark);
@@ -104,7 +105,7 @@ PanelContent ViewerApp::panel_content() const {
       .status = input_.scene.status,
       .message = message_,
       .gaussians = painter_.gaussians(),
-      .live = input_.live && !finished_,
+      .live = input_.live != nullptr,
       .has_sensor = has_sensor(),
       .trajectory = &input_.scene.trajectory,
       .keyframes = &input_.scene.keyframes,

@@ -30,6 +30,7 @@ TEST_CASE("ticks are multiples of one round step within a scale, as many as may 
   CHECK(ticks_between(0, 20, 6) == std::vector<double>{0, 5, 10, 15, 20});
   CHECK(ticks_between(0.5, 4.4, 5) == std::vector<double>{1, 2, 3, 4});
   CHECK(ticks_between(3, 3, 6).empty());
+  CHECK_FALSE(std::signbit(ticks_between(0, 5, 6).front()));
   for (double high = 0.013; high < 400; high *= 1.19)
     for (double low : {0.0, 0.3 * high}) {
       const std::vector<double> ticks = ticks_between(low, high, 6);

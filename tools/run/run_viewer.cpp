@@ -53,7 +53,8 @@ class ViewerObserver : public RunObserver {
     input.live = &feed_;
     input.interrupted = [this] { return interrupted() && !feed_.stop_wanted(); };
     for (const char* key : kLiveSettings) input.settings.push_back(schema_.number(key));
-    input.note = [this](const std::string& text) { log_->info("the user has {}", text); };
+    // The window outlives the run, and its log.
+    input.note = [](const std::string& text) { say(stdout, "{}\n", text); };
     input.scene.status = "waiting for the first frame";
     input.scene.waiting_for = "Waiting for the first frame";
     begun_ = true;
