@@ -52,6 +52,12 @@ ViewSession::ViewSession(const TemporaryFolder& folder, std::vector<std::string>
   if (!sizes.window.empty())
     screen_.act(fmt::format("windowsize {} {} {}", window_, sizes.window.width, sizes.window.height));
   screen_.act("mousemove 600 300");
+  // Until the first picture, the window is of one colour there.
+  wait_for([&] {
+    cv::Scalar mean, spread;
+    cv::meanStdDev(screen_.picture()(cv::Rect(380, 20, 100, 100)), mean, spread);
+    return spread[1] > 1;
+  });
 }
 
 std::string ViewSession::stem() const {
