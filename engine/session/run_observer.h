@@ -27,6 +27,8 @@ class RunObserver {
   virtual void begin(const RunStart&) {}
   /// Before each frame; may wait, as long as the run is not interrupted, and change settings.
   virtual void before_frame(Slam&) {}
+  /// A frame's pose is known, and the map is about to be worked on; see Slam::Tracked for what may be called.
+  virtual void tracked(const Frame&, const FrameReport&) {}
   /// A frame was fed.
   virtual void fed(const Frame&, const Slam&, const FrameReport&) {}
   /// A frame could not be read or fed. May come late, but before the next one is fed, or before the end.

@@ -42,6 +42,10 @@ class Listener : public SlamListener {
     });
   }
 
+  void tracked(const Frame& frame, const FrameReport& report) override {
+    for (RunObserver* observer : observers_) observer->tracked(frame, report);
+  }
+
   void mapped(const Frame& frame, const Slam& slam, const FrameReport& report) override {
     guard([&] {
       tell_unreadable(frame.index);

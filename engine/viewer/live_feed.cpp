@@ -10,6 +10,11 @@ bool LiveFeed::may_go_on(std::chrono::milliseconds patience) {
   return true;
 }
 
+void LiveFeed::announce(ViewerScene scene) {
+  std::lock_guard lock(mutex_);
+  update_.scene = std::move(scene);
+}
+
 void LiveFeed::publish(const FrameNumbers& numbers, bool keyframe, const std::function<ViewerScene()>& scene,
                        const std::function<GaussianCloud()>& map) {
   bool with_scene = false, with_map = false;

@@ -31,6 +31,8 @@ class LiveFeed {
 
   /// Whether the next frame may be taken: waits as long as the user has paused, up to `patience`.
   bool may_go_on(std::chrono::milliseconds patience);
+  /// What is known and done before the first frame is: shown until that is.
+  void announce(ViewerScene scene);
   /// A frame is done. `scene` is called where the window wants to know more than the numbers, and `map` too
   /// at a keyframe where it wants that.
   void publish(const FrameNumbers& numbers, bool keyframe, const std::function<ViewerScene()>& scene,

@@ -11,6 +11,7 @@ class ViewCamera {
  public:
   /// Where up is in the world (find_up()), unit length. Changes no pose that is already taken.
   void set_up(const Eigen::Vector3d& up) { down_ = -up; }
+  Eigen::Vector3d up() const { return -down_; }
   /// Behind the pose of a tracked camera, slightly above it, looking where it looks.
   void follow(const Pose& camera_to_world);
   /// In the place of a camera, with its field of view.

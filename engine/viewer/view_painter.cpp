@@ -4,6 +4,8 @@
 #include <opencv2/imgproc.hpp>
 #include <string>
 
+#include "engine/viewer/legend.h"
+
 namespace surefield {
 
 namespace {
@@ -12,7 +14,6 @@ namespace {
 struct Recipe {
   glsl::uint shade;
   std::optional<glsl::uint> prepare;  ///< none: splats keep their colour
-  int palette = cv::COLORMAP_TURBO;
 };
 
 Recipe recipe_of(ViewMode mode) {
@@ -24,9 +25,9 @@ Recipe recipe_of(ViewMode mode) {
     case ViewMode::Opacity:
       return {glsl::SHADE_OPACITY, {}};
     case ViewMode::Uncertainty:
-      return {glsl::SHADE_UNCERTAINTY, {}, cv::COLORMAP_INFERNO};
+      return {glsl::SHADE_UNCERTAINTY, {}};
     case ViewMode::GaussianUncertainty:
-      return {glsl::SHADE_GAUSSIAN_UNCERTAINTY, glsl::PREPARE_UNCERTAINTY, cv::COLORMAP_INFERNO};
+      return {glsl::SHADE_GAUSSIAN_UNCERTAINTY, glsl::PREPARE_UNCERTAINTY};
     case ViewMode::Ellipsoids:
     case ViewMode::Points:
       return {glsl::SHADE_COLOUR, glsl::PREPARE_SOLID};
@@ -35,7 +36,7 @@ Recipe recipe_of(ViewMode mode) {
     case ViewMode::Sensor:
       return {glsl::SHADE_SENSOR, {}};
     case ViewMode::Error:
-      return {glsl::SHADE_ERROR, {}, cv::COLORMAP_INFERNO};
+      return {glsl::SHADE_ERROR, {}};
     case ViewMode::Colour:
       break;
   }
@@ -46,20 +47,11 @@ bool is_solid(ViewMode mode) {
   return mode == ViewMode::Ellipsoids || mode == ViewMode::Points;
 }
 
-/// 256 colours, RGBA bytes.
-std::vector<glsl::uint> palette_of(int map) {
-  cv::Mat levels(1, 256, CV_8UC1), colours;
-  for (int i = 0; i < 256; ++i) levels.at<uint8_t>(i) = static_cast<uint8_t>(i);
-  cv::applyColorMap(levels, colours, map);
-  cv::cvtColor(colours, colours, cv::COLOR_BGR2RGBA);
-  const auto* begin = colours.ptr<glsl::uint>();
-  return {begin, begin + 256};
-}
-
-/// The scale of the mode's values.
-std::pair<float, float> scale_of(const ViewSettings& settings) {
-  const bool depth = settings.mode == ViewMode::Depth || settings.mode == ViewMode::MedianDepth;
-  return depth ? std::pair(settings.depth_near, settings.depth_far) : std::pair(0.0f, settings.error_far);
+/// The mode's colours; where it paints no values, none that anybody sees.
+std::vector<glsl::uint> palette_for(ViewMode mode) {
+  std::vector<glsl::uint> palette = palette_of(mode);
+  palette.resize(kPaletteSize);
+  return palette;
 }
 
 }  // namespace
@@ -83,9 +75,11 @@ ViewPainter::ModePasses& ViewPainter::passes_of(ViewMode mode) {
   if (made) return *made;
   const Recipe recipe = recipe_of(mode);
   const TileShape& s = rasteriser_.lists.shape();
-  made.reset(new ModePasses{
-      nullptr, nullptr, {device_, gpu::kWorkgroup, {.SHADE = recipe.shade}}, {device_, "palette", 256}});
-  made->palette.upload(palette_of(recipe.palette));
+  made.reset(new ModePasses{nullptr,
+                            nullptr,
+                            {device_, gpu::kWorkgroup, {.SHADE = recipe.shade}},
+                            {device_, "palette", kPaletteSize}});
+  made->palette.upload(palette_for(mode));
   if (recipe.prepare)
     made->prepare = std::make_unique<gpu::Pass<passes::colour_splats>>(
         device_, gpu::kWorkgroup, passes::colour_splats::Constants{.PREPARE = *recipe.prepare});

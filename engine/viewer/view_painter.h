@@ -49,6 +49,9 @@ class ViewPainter {
   /// that of the frame; its intrinsics may be others. Throws UsageError where there is no frame.
   void paint(const Camera& camera, const ViewSettings& settings, std::span<const Line> lines = {});
 
+  /// What the map has at every pixel of a view, in host memory, for pick(). The last picture stays.
+  RenderImages measure(const Camera& camera) { return rasteriser_.render(map_, camera); }
+
   /// The last picture: RGBA bytes, row-major, on the device; and in host memory, CV_8UC3, RGB.
   const gpu::Array<glsl::uint>& pixels() const { return pixels_; }
   const ImageSize& size() const { return size_; }

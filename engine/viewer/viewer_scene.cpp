@@ -36,7 +36,7 @@ std::vector<Line> lines_of(const ViewerScene& scene, const OverlayChoice& choice
   if (choice.trajectory) add_path(lines, scene.trajectory, {kEstimate, 2, choice.on_top});
   if (choice.keyframes && has_frusta)
     for (const StampedPose& pose : scene.keyframes)
-      add_frustum(lines, camera_at(scene, pose), 0.7 * choice.frustum, {kKeyframe, 1, choice.on_top});
+      add_frustum(lines, camera_at(scene, pose), choice.keyframe_frustum(), {kKeyframe, 1, choice.on_top});
   if (choice.window && has_frusta) add_window(lines, scene, choice);
   if (choice.camera && scene.frame.index >= 0)
     add_frustum(lines, scene.frame.camera, 1.3 * choice.frustum, {kCamera, 2, choice.on_top});

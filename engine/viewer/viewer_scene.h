@@ -31,7 +31,8 @@ struct ViewerScene {
   std::vector<int> window;  ///< positions in `keyframes` that were optimised together last
   SceneFrame frame;         ///< the newest, or the one that was chosen
   std::vector<FrameNumbers> numbers;
-  std::string status;  ///< one line
+  std::string status;       ///< one line
+  std::string waiting_for;  ///< one line: what is done while there is no map yet
 };
 
 /// Which lines are drawn.
@@ -43,6 +44,9 @@ struct OverlayChoice {
   bool camera = true;
   double frustum = 0.08;  ///< metres
   bool on_top = false;    ///< also what the map hides
+
+  /// Of a keyframe, metres.
+  double keyframe_frustum() const { return 0.7 * frustum; }
 
   bool operator==(const OverlayChoice&) const = default;
 };

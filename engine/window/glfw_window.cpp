@@ -9,6 +9,7 @@ namespace {
 
 constexpr int kFirstWidth = 1280;  // screen coordinates
 constexpr int kFirstHeight = 800;
+constexpr double kClick = 4;  // screen coordinates that the mouse may move between press and release
 
 std::string last_error() {
   const char* text = nullptr;
@@ -30,11 +31,14 @@ std::string glfw_problem() {
   return "";
 }
 
-GlfwWindow::GlfwWindow(const std::string& title) {
+GlfwWindow::GlfwWindow(const std::string& title, double scale) : scale_(static_cast<float>(scale)) {
   if (const std::string problem = glfw_problem(); !problem.empty()) throw InputError(problem);
   glfwWindowHint(GLFW_CLIENT_API, GLFW_NO_API);
-  glfwWindowHint(GLFW_SCALE_TO_MONITOR, GLFW_TRUE);
-  window_ = glfwCreateWindow(kFirstWidth, kFirstHeight, title.c_str(), nullptr, nullptr);
+  glfwWindowHint(GLFW_VISIBLE, GLFW_FALSE);
+  glfwWindowHint(GLFW_SCALE_TO_MONITOR, scale_ > 0 ? GLFW_FALSE : GLFW_TRUE);
+  const double size = scale_ > 0 ? scale_ : 1;
+  window_ = glfwCreateWindow(static_cast<int>(size * kFirstWidth), static_cast<int>(size * kFirstHeight),
+                             title.c_str(), nullptr, nullptr);
   if (!window_) throw InputError("no window can be opened: " + last_error());
   glfwSetWindowUserPointer(window_, this);
   listen();
@@ -57,13 +61,17 @@ void GlfwWindow::listen() {
     GlfwWindow& window = of(w);
     window.input_.any = true;
     const bool down = action == GLFW_PRESS && !window.ui_has_mouse_;
-    (button == GLFW_MOUSE_BUTTON_LEFT ? window.left_ : window.right_) = down;
+    if (button == GLFW_MOUSE_BUTTON_LEFT)
+      window.press_left(down);
+    else
+      window.right_ = down;
   });
   glfwSetCursorPosCallback(window_, [](GLFWwindow* w, double x, double y) {
     GlfwWindow& window = of(w);
     window.input_.any = true;
     const Eigen::Vector2d moved = Eigen::Vector2d(x, y) - window.cursor_;
     window.cursor_ += moved;
+    window.dragged_ += moved.lpNorm<1>();
     if (window.left_) window.input_.drag_left += moved;
     if (window.right_) window.input_.drag_right += moved;
   });
@@ -74,6 +82,18 @@ void GlfwWindow::listen() {
   glfwSetFramebufferSizeCallback(window_, [](GLFWwindow* w, int, int) { of(w).input_.any = true; });
   glfwSetWindowRefreshCallback(window_, [](GLFWwindow* w) { of(w).input_.any = true; });
   glfwSetWindowIconifyCallback(window_, [](GLFWwindow* w, int) { of(w).input_.any = true; });
+}
+
+void GlfwWindow::press_left(bool down) {
+  if (down) dragged_ = 0;
+  if (left_ && !down && dragged_ < kClick) input_.clicks.push_back(to_pixels(cursor_));
+  left_ = down;
+}
+
+Eigen::Vector2d GlfwWindow::to_pixels(const Eigen::Vector2d& coordinates) const {
+  Eigen::Vector2i size;
+  glfwGetWindowSize(window_, &size.x(), &size.y());
+  return coordinates.cwiseProduct(pixels().cast<double>()).cwiseQuotient(size.cwiseMax(1).cast<double>());
 }
 
 std::vector<std::string> GlfwWindow::instance_extensions() const {
@@ -105,7 +125,12 @@ Eigen::Vector2i GlfwWindow::pixels() const {
   return glfwGetWindowAttrib(window_, GLFW_ICONIFIED) ? Eigen::Vector2i(0, 0) : size;
 }
 
+Eigen::Vector2d GlfwWindow::cursor() const {
+  return to_pixels(cursor_);
+}
+
 float GlfwWindow::scale() const {
+  if (scale_ > 0) return scale_;
   float x = 1, y = 1;
   glfwGetWindowContentScale(window_, &x, &y);
   return x;

@@ -3,59 +3,106 @@
 #include <fmt/format.h>
 #include <imgui.h>
 
-#include <algorithm>
 #include <array>
-#include <cmath>
+
+#include "engine/viewer/scales.h"
+#include "engine/viewer/timeline.h"
+#include "engine/window/panel_lists.h"
 
 namespace surefield {
 
 namespace {
-
-constexpr float kWidth = 350;              // pixels of usual text
-constexpr std::size_t kMostPlotted = 600;  // frames
 
 struct StyleName {
   CameraStyle style;
   const char* name;
 };
 constexpr std::array kStyles = {StyleName{CameraStyle::Orbit, "orbit"}, StyleName{CameraStyle::Fly, "fly"},
-                                StyleName{CameraStyle::Follow, "behind it"},
-                                StyleName{CameraStyle::Through, "through it"}};
+                                StyleName{CameraStyle::Follow, "behind the camera"},
+                                StyleName{CameraStyle::Through, "through its eyes"}};
+
+constexpr std::array<const char*, kCoarsest> kResolutions = {"full", "half", "a third", "a quarter"};
+
+bool has_depth_scale(ViewMode mode) {
+  return mode == ViewMode::Depth || mode == ViewMode::MedianDepth;
+}
+
+bool has_error_scale(ViewMode mode) {
+  return mode == ViewMode::Uncertainty || mode == ViewMode::GaussianUncertainty;
+}
+
+/// The mode with its key, or why it cannot be had.
+std::string entry_of(const ViewModeInfo& info, bool possible) {
+  return fmt::format("{}  {}{}", key_of(info.mode), info.title, possible ? "" : " (no image)");
+}
 
 void draw_modes(const PanelContent& content, ViewerState& state) {
-  for (const ViewModeInfo& info : view_modes()) {
-    if (info.needs_sensor && !content.has_sensor) {
-      ImGui::TextDisabled("      %s (no image)", info.title);
-      continue;
+  ImGui::SetNextItemWidth(-1);
+  if (ImGui::BeginCombo("##mode", info_of(state.view.mode).title, ImGuiComboFlags_HeightLargest)) {
+    for (const ViewModeInfo& info : view_modes()) {
+      const bool possible = !info.needs_sensor || content.has_sensor;
+      const auto flags = possible ? ImGuiSelectableFlags_None : ImGuiSelectableFlags_Disabled;
+      if (ImGui::Selectable(entry_of(info, possible).c_str(), state.view.mode == info.mode, flags))
+        state.view.mode = info.mode;
     }
-    if (ImGui::RadioButton(info.title, state.view.mode == info.mode)) state.view.mode = info.mode;
+    ImGui::EndCombo();
   }
-  if (state.view.mode == ViewMode::Depth || state.view.mode == ViewMode::MedianDepth)
-    ImGui::SliderFloat("far, m", &state.view.depth_far, 0.2f, 20, "%.2f", ImGuiSliderFlags_Logarithmic);
-  if (state.view.mode == ViewMode::Uncertainty || state.view.mode == ViewMode::GaussianUncertainty)
-    ImGui::SliderFloat("pale is, m", &state.view.error_far, 0.005f, 1, "%.3f", ImGuiSliderFlags_Logarithmic);
+  if (has_depth_scale(state.view.mode))
+    ImGui::SliderFloat("scale, m", &state.view.depth_far, 0.2f, 20, "0 to %.2f",
+                       ImGuiSliderFlags_Logarithmic);
+  if (has_error_scale(state.view.mode))
+    ImGui::SliderFloat("scale, m", &state.view.error_far, 0.005f, 1, "0 to %.3f",
+                       ImGuiSliderFlags_Logarithmic);
+}
+
+void draw_picture(const PanelContent& content, ViewerState& state) {
+  draw_modes(content, state);
+  int backdrop = static_cast<int>(state.backdrop);
+  const auto name_of = [](void*, int i, const char** name) {
+    *name = backdrops()[static_cast<std::size_t>(i)].name;
+    return true;
+  };
+  if (ImGui::Combo("background", &backdrop, name_of, nullptr, static_cast<int>(backdrops().size()))) {
+    state.backdrop = backdrops()[static_cast<std::size_t>(backdrop)].backdrop;
+    set_backdrop(state.view, state.backdrop);
+  }
+  int resolution = state.coarseness - 1;
+  if (ImGui::Combo("resolution", &resolution, kResolutions.data(), kCoarsest))
+    state.coarseness = resolution + 1;
+  ImGui::Checkbox("colour bar, axes and scale bar", &state.scales);
 }
 
 void draw_camera(const PanelContent& content, ViewerState& state, ViewerRequests& requests) {
   for (std::size_t i = 0; i < kStyles.size(); ++i) {
-    if (i % 2 != 0) ImGui::SameLine(0.5f * kWidth * content.scale);
+    if (i % 2 != 0) ImGui::SameLine(0.5f * kPanelWidth * content.scale);
     if (ImGui::RadioButton(kStyles[i].name, state.style == kStyles[i].style)) state.style = kStyles[i].style;
   }
-  if (ImGui::Button("Reset")) requests.reset = true;
+  if (ImGui::Button("Start of the view")) requests.reset = true;
   ImGui::SameLine();
   if (ImGui::Button("< keyframe")) requests.keyframes = -1;
   ImGui::SameLine();
   if (ImGui::Button("keyframe >")) requests.keyframes = 1;
-  ImGui::SliderInt("coarseness", &state.coarseness, 1, 4, "%d", ImGuiSliderFlags_AlwaysClamp);
+}
+
+/// A recorded trajectory in seconds, to be moved along.
+void draw_timeline(const PanelContent& content, ViewerState& state) {
+  const Timeline timeline(*content.trajectory);
+  auto seconds = static_cast<float>(timeline.seconds_at(state.position));
+  const std::string text = fmt::format("{} of {}, frame {}", format_time(timeline.seconds_at(state.position)),
+                                       format_time(timeline.duration()), state.position);
+  ImGui::SetNextItemWidth(-1);
+  const auto end = static_cast<float>(timeline.duration());
+  if (ImGui::SliderFloat("##time", &seconds, 0, end, text.c_str(), ImGuiSliderFlags_AlwaysClamp))
+    state.position = timeline.position_at(seconds);
 }
 
 void draw_run(const PanelContent& content, ViewerState& state, ViewerRequests& requests) {
-  ImGui::TextWrapped("%s", content.status.c_str());
-  ImGui::Text("%u Gaussians", content.gaussians);
-  if (content.live || content.positions > 1) {
-    if (ImGui::Button(state.running ? "Pause" : "Go on")) state.running = !state.running;
+  ImGui::TextWrapped("%s, %u Gaussians", content.status.c_str(), content.gaussians);
+  const bool recorded = !content.live && content.trajectory->size() > 1;
+  if (content.live || recorded) {
+    if (ImGui::Button(state.running ? "Pause" : "Play")) state.running = !state.running;
     ImGui::SameLine();
-    if (ImGui::Button("Step")) {
+    if (ImGui::Button("One frame")) {
       state.running = false;
       requests.step = true;
     }
@@ -64,13 +111,26 @@ void draw_run(const PanelContent& content, ViewerState& state, ViewerRequests& r
     ImGui::SameLine();
     if (ImGui::Button("End the run")) requests.stop = true;
     ImGui::Checkbox("end the run with the window", &state.stop_on_close);
-  } else if (content.positions > 1) {
-    ImGui::SliderInt("frame", &state.position, 0, content.positions - 1, "%d", ImGuiSliderFlags_AlwaysClamp);
   }
+  if (recorded) draw_timeline(content, state);
   if (ImGui::Button("Screenshot")) requests.screenshot = true;
   ImGui::SameLine();
   if (ImGui::Button("Save map")) requests.save_map = true;
   if (!content.message.empty()) ImGui::TextWrapped("%s", content.message.c_str());
+}
+
+void draw_measuring(const PanelContent& content, ViewerState& state, ViewerRequests& requests) {
+  ImGui::Checkbox("tell what is under the mouse", &state.probe);
+  if (ImGui::Checkbox("ruler: click two places", &state.ruler)) requests.clear = true;
+  const bool nothing = content.picked.empty() && content.distance.empty();
+  if (!nothing) {
+    ImGui::SameLine(0.75f * kPanelWidth * content.scale);
+    if (ImGui::Button("Forget")) requests.clear = true;
+  }
+  for (const std::string& line : content.picked) ImGui::TextUnformatted(line.c_str());
+  if (!content.distance.empty()) ImGui::TextUnformatted(content.distance.c_str());
+  if (nothing)
+    ImGui::TextDisabled("%s", state.ruler ? "click two places of the map" : "click on the map to know more");
 }
 
 void draw_lines_choice(OverlayChoice& overlay) {
@@ -82,67 +142,10 @@ void draw_lines_choice(OverlayChoice& overlay) {
   ImGui::Checkbox("keyframes", &overlay.keyframes);
   ImGui::SameLine();
   ImGui::Checkbox("window and links", &overlay.window);
-  ImGui::Checkbox("before the map", &overlay.on_top);
+  ImGui::Checkbox("also where the map hides them", &overlay.on_top);
   float frustum = static_cast<float>(overlay.frustum);
-  if (ImGui::SliderFloat("frusta, m", &frustum, 0.01f, 1, "%.2f", ImGuiSliderFlags_Logarithmic))
+  if (ImGui::SliderFloat("cameras, m", &frustum, 0.01f, 1, "%.2f long", ImGuiSliderFlags_Logarithmic))
     overlay.frustum = frustum;
-}
-
-/// One quantity over the last frames, with its newest value.
-void plot(const PanelContent& content, const char* title, float FrameNumbers::*quantity, const char* format) {
-  const auto& all = *content.numbers;
-  const std::size_t first = all.size() - std::min(all.size(), kMostPlotted);
-  std::vector<float> values;
-  for (std::size_t i = first; i < all.size(); ++i) values.push_back(all[i].*quantity);
-  const auto known = [](float value) { return std::isfinite(value); };
-  if (values.empty() || std::none_of(values.begin(), values.end(), known)) return;
-  for (float& value : values) value = known(value) ? value : 0;
-  const std::string text = fmt::format(fmt::runtime(format), values.back());
-  ImGui::PlotLines(title, values.data(), static_cast<int>(values.size()), 0, text.c_str(), 0, FLT_MAX,
-                   ImVec2(0.66f * kWidth * content.scale, 2.6f * ImGui::GetTextLineHeight()));
-}
-
-void draw_plots(const PanelContent& content) {
-  plot(content, "loss", &FrameNumbers::loss, "{:.4f}");
-  plot(content, "FPS", &FrameNumbers::frames_per_second, "{:.2f}");
-  plot(content, "Gaussians", &FrameNumbers::gaussians, "{:.0f}");
-  plot(content, "ATE, cm", &FrameNumbers::ate_cm, "{:.2f}");
-}
-
-/// A slider for one setting; wide ranges are stretched at their low end.
-bool draw_setting(NumberSetting& setting) {
-  const bool wide = setting.range.max > 100;
-  const ImGuiSliderFlags flags =
-      ImGuiSliderFlags_AlwaysClamp | (wide ? ImGuiSliderFlags_Logarithmic : ImGuiSliderFlags_None);
-  ImGui::PushID(setting.key.c_str());
-  ImGui::TextUnformatted(setting.key.c_str());
-  if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", setting.help.c_str());
-  ImGui::SetNextItemWidth(-1);
-  bool changed = false;
-  if (setting.whole) {
-    int value = static_cast<int>(setting.value);
-    changed = ImGui::SliderInt("##value", &value, static_cast<int>(setting.range.min),
-                               static_cast<int>(setting.range.max), "%d", flags);
-    setting.value = value;
-  } else {
-    float value = static_cast<float>(setting.value);
-    changed = ImGui::SliderFloat("##value", &value, static_cast<float>(setting.range.min),
-                                 static_cast<float>(setting.range.max), "%.4g", flags);
-    if (changed) setting.value = value;
-  }
-  ImGui::PopID();
-  return changed;
-}
-
-void draw_keys(float scale) {
-  ImGui::TextUnformatted("1 ... 9, 0, -");
-  ImGui::SameLine(110 * scale);
-  ImGui::TextWrapped("the modes, in their order");
-  for (const KeyBinding& binding : key_bindings()) {
-    ImGui::TextUnformatted(binding.name);
-    ImGui::SameLine(110 * scale);
-    ImGui::TextWrapped("%s", binding.what);
-  }
 }
 
 }  // namespace
@@ -150,25 +153,24 @@ void draw_keys(float scale) {
 ViewerRequests draw_panel(const PanelContent& content, ViewerState& state,
                           std::vector<NumberSetting>& settings, std::vector<std::size_t>& changed) {
   ViewerRequests requests;
-  const float margin = 8 * content.scale;
+  const float margin = 8 * content.scale, width = kPanelWidth * content.scale;
   const float height = ImGui::GetIO().DisplaySize.y - 2 * margin;
   ImGui::SetNextWindowPos(ImVec2(margin, margin), ImGuiCond_FirstUseEver);
-  ImGui::SetNextWindowSizeConstraints(ImVec2(kWidth * content.scale, 0),
-                                      ImVec2(kWidth * content.scale, height));
+  ImGui::SetNextWindowSizeConstraints(ImVec2(width, 0), ImVec2(width, height));
   ImGui::SetNextWindowBgAlpha(0.85f);
   ImGui::Begin("Surefield", nullptr, ImGuiWindowFlags_AlwaysAutoResize);
-  ImGui::PushItemWidth(0.6f * kWidth * content.scale);
+  ImGui::PushItemWidth(0.6f * width);
   const auto section = [](const char* title, bool open) {
     return ImGui::CollapsingHeader(title, open ? ImGuiTreeNodeFlags_DefaultOpen : 0);
   };
   if (section("Run", true)) draw_run(content, state, requests);
-  if (section("Picture", true)) draw_modes(content, state);
+  if (section("Picture", true)) draw_picture(content, state);
   if (section("Camera", true)) draw_camera(content, state, requests);
+  if (section("Measure", true)) draw_measuring(content, state, requests);
   if (section("Lines", false)) draw_lines_choice(state.overlay);
+  if (!content.keyframes->empty() && section("Keyframes", false)) draw_keyframes(content, requests);
   if (content.numbers && !content.numbers->empty() && section("Plots", content.live)) draw_plots(content);
-  if (!settings.empty() && section("Settings", false))
-    for (std::size_t i = 0; i < settings.size(); ++i)
-      if (draw_setting(settings[i])) changed.push_back(i);
+  if (!settings.empty() && section("Settings", false)) draw_settings(settings, changed);
   if (section("Keys", false)) draw_keys(content.scale);
   ImGui::PopItemWidth();
   ImGui::End();

@@ -10,10 +10,14 @@ struct PanelContent {
   std::string status;   ///< one line: what the run does
   std::string message;  ///< one line: what was done last
   uint32_t gaussians = 0;
-  bool live = false;        ///< a run that goes on
-  bool has_sensor = false;  ///< there are images of the frame shown
-  int positions = 0;        ///< of a recorded trajectory
-  float scale = 1;          ///< of text
+  bool live = false;                       ///< a run that goes on
+  bool has_sensor = false;                 ///< there are images of the frame shown
+  const Trajectory* trajectory = nullptr;  ///< of the frames so far, or of all that were recorded
+  const Trajectory* keyframes = nullptr;
+  int keyframe = -1;                ///< the one whose frame was shown last; -1: none yet
+  std::vector<std::string> picked;  ///< what is known of the place that was clicked last
+  std::string distance;             ///< that was measured
+  float scale = 1;                  ///< of text
   const std::vector<FrameNumbers>* numbers = nullptr;
 };
 

@@ -30,6 +30,9 @@ struct ViewerInput {
   /// The images of the frame at a position of the trajectory; nullopt or no function: there are none.
   std::function<std::optional<SceneFrame>(int)> load_frame;
 
+  double ui_scale = 0;  ///< how many times larger than usual text and controls are; 0: as the screen asks
+  /// Is told what was clicked and measured, one line each (describe()); no function: nobody is.
+  std::function<void(const std::string&)> note;
   std::function<bool()> interrupted;  ///< whether to close the window
 };
 

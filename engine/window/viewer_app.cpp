@@ -12,13 +12,11 @@ namespace surefield {
 
 namespace {
 
-constexpr double kLiveShare = 0.05;     // of the time that what is new in a run may take to show
-constexpr double kLivePatience = 0.05;  // seconds between looks for something new
-constexpr double kPatience = 0.25;      // where nothing is new unless the user does something
-constexpr double kPlayed = 30;          // recorded frames shown in a second
-constexpr double kTurn = 2.5;           // radians that a drag over the window's height turns
-constexpr double kScroll = 0.85;        // of the distance that a notch leaves
-constexpr double kSpeed = 0.8;          // metres a second while a key is held
+constexpr double kLiveShare = 0.05;      // of the time that what is new in a run may take to show
+constexpr double kLivePatience = 0.05;   // seconds between looks for something new
+constexpr double kPatience = 0.25;       // where nothing is new unless the user does something
+constexpr double kPlayPatience = 0.005;  // between looks whether the next recorded frame is due
+constexpr double kTick = 0.5;            // seconds between counts of how long it takes to the first map
 
 double seconds_between(std::chrono::steady_clock::time_point from, std::chrono::steady_clock::time_point to) {
   return std::chrono::duration<double>(to - from).count();
@@ -34,15 +32,34 @@ gpu::DeviceOptions device_options(const ViewerInput& input, const GlfwWindow& wi
 
 ViewerApp::ViewerApp(ViewerInput input)
     : input_(std::move(input)),
-      window_(input_.title),
+      window_(input_.title, input_.ui_scale),
       device_(device_options(input_, window_)),
       painter_(device_),
       presenter_(device_, window_.create_surface(device_.window_handles().instance)),
       interface_(window_, device_, presenter_) {
+  open();
   set_map(std::move(input_.map));
   state_.view.depth_far = static_cast<float>(input_.depth_far);
   state_.running = input_.live != nullptr;
   begin_view();
+}
+
+/// Shows the window. Its first picture takes a while where kernels are compiled for it, so that it says so.
+void ViewerApp::open() {
+  gpu::Array<glsl::uint> grey(device_, "first picture", 1);
+  gpu::Recorder recorder(device_);
+  recorder.fill(grey, 1, 0xFF2B2929);
+  recorder.submit();
+  const auto present = [&] {
+    interface_.lay_out([&] {
+      draw_labels({.scales = false, .waiting = "Preparing the first picture", .scale = window_.scale()});
+    });
+    presenter_.show(grey, {1, 1}, window_.pixels(),
+                    [this](VkCommandBuffer commands) { interface_.draw(commands); });
+  };
+  present();  // hidden, so that the window is not black while that is compiled
+  window_.show();
+  present();
 }
 
 /// In a run, behind the camera; else where all of the map is seen.
@@ -73,9 +90,9 @@ void ViewerApp::set_map(GaussianCloud map) {
 void ViewerApp::run() {
   Clock::time_point last = Clock::now();
   while (!window_.should_close() && !(input_.interrupted && input_.interrupted())) {
-    const bool waits = shown_ == 0 && !repaint_ && (input_.live || !state_.running);
-    const UserInput input =
-        window_.wait(waits ? (input_.live ? kLivePatience : kPatience) : 0, interface_.has_mouse());
+    const bool waits = shown_ == 0 && !repaint_;
+    const double patience = input_.live ? kLivePatience : plays() ? kPlayPatience : kPatience;
+    const UserInput input = window_.wait(waits ? patience : 0, interface_.has_mouse());
     const Clock::time_point now = Clock::now();
     const double seconds = seconds_between(last, now);
     last = now;
@@ -86,12 +103,18 @@ void ViewerApp::run() {
     if (input.any) shown_ = 3;
     play(seconds);
     apply(before);
+    const bool had_map = painter_.gaussians() > 0;
     const bool updated = take_updates();
     if (window_.pixels().minCoeff() <= 0) continue;  // minimised
+    if (std::exchange(requests.clear, false)) forget_picks();
+    for (const Eigen::Vector2d& place : input.clicks) click(place);
+    probe(input, now);
+    if (waits_for_map() && seconds_between(last_shown_, now) > kTick) shown_ = std::max(shown_, 1);
     if (shown_ > 0 || repaint_ || updated) draw(requests);
     fulfil(requests);
     const Clock::time_point done = Clock::now();
-    if (updated && !finished_) next_update_ = done + (done - now) * static_cast<int>(1 / kLiveShare - 1);
+    if (updated && had_map)  // the first pictures of a map compile kernels
+      next_update_ = done + (done - now) * static_cast<int>(1 / kLiveShare - 1);
   }
   if (input_.live && state_.stop_on_close) input_.live->stop();
 }
@@ -100,18 +123,28 @@ void ViewerApp::run() {
 bool ViewerApp::take_updates() {
   if (!input_.live || Clock::now() < next_update_) return false;
   LiveFeed::Update update = input_.live->take();
-  finished_ |= update.finished;
   ViewerScene& scene = input_.scene;
   scene.numbers.insert(scene.numbers.end(), update.numbers.begin(), update.numbers.end());
   if (update.map) set_map(std::move(*update.map));
   if (update.scene) {
+    if (update.scene->waiting_for != scene.waiting_for) waits_since_ = Clock::now();
     update.scene->numbers = std::move(scene.numbers);
     scene = std::move(*update.scene);
     new_sensor_ = true;
   }
   const bool any = update.map || update.scene || !update.numbers.empty();
   repaint_ |= update.map || update.scene;
+  if (any) shown_ = 3;  // the panel takes its size from what it held before
+  if (update.finished) end_live();
   return any;
+}
+
+/// From now on the run is one that was recorded.
+void ViewerApp::end_live() {
+  input_.live = nullptr;
+  input_.settings.clear();
+  state_.running = false;
+  choose_frame(static_cast<int>(input_.scene.trajectory.size()) - 1);
 }
 
 /// Does what changes of the state ask for.
@@ -128,89 +161,19 @@ void ViewerApp::handle_keys(const UserInput& input, ViewerRequests& requests) {
   for (const UserInput::Press& press : input.presses) press_key(press.key, state_, requests);
 }
 
-/// Moves the camera by hand; returns whether it moved. Whoever drags takes it from where it followed.
-bool ViewerApp::move_camera(const UserInput& input, double seconds) {
-  const int height = std::max(window_.pixels().y(), 1);
-  const Eigen::Vector2d turn = kTurn / height * input.drag_left;
-  const bool by_mouse = input.drag_left.norm() + input.drag_right.norm() + std::abs(input.scroll) > 0;
-  if (by_mouse && state_.style != CameraStyle::Fly) state_.style = CameraStyle::Orbit;
-  Eigen::Vector3d along = Eigen::Vector3d::Zero();
-  if (state_.style == CameraStyle::Fly) {
-    const auto axis = [&](int more, int less) { return window_.is_down(more) - window_.is_down(less); };
-    along = {static_cast<double>(axis(GLFW_KEY_D, GLFW_KEY_A)),
-             static_cast<double>(axis(GLFW_KEY_Q, GLFW_KEY_E)),
-             static_cast<double>(axis(GLFW_KEY_W, GLFW_KEY_S))};
-    camera_.turn(-turn.x(), -turn.y());
-    camera_.move(kSpeed * std::min(seconds, 0.2) * along);
-  } else {
-    camera_.orbit(turn.x(), turn.y());
-  }
-  camera_.pan(input.drag_right.x(), input.drag_right.y(), height);
-  if (input.scroll != 0) camera_.approach(std::pow(kScroll, input.scroll));
-  return by_mouse || along.norm() > 0;
-}
-
-/// Puts the camera where it is not moved by hand.
-void ViewerApp::place_camera() {
-  const SceneFrame& frame = input_.scene.frame;
-  if (frame.index < 0) return;
-  if (state_.style == CameraStyle::Through || info_of(state_.view.mode).needs_sensor)
-    camera_.look_through(frame.camera);
-  else if (state_.style == CameraStyle::Follow)
-    camera_.follow(frame.camera.world_to_camera.inverse());
-}
-
-/// Goes on through a recorded trajectory, from its beginning again after its end.
-void ViewerApp::play(double seconds) {
-  const int frames = static_cast<int>(input_.scene.trajectory.size());
-  if (input_.live || !state_.running || frames < 2) return;
-  played_ += kPlayed * seconds;
-  const int whole = static_cast<int>(played_);
-  played_ -= whole;
-  state_.position = (state_.position + whole) % frames;
-}
-
-void ViewerApp::choose_frame(int position) {
-  ViewerScene& scene = input_.scene;
-  state_.position = std::clamp(position, 0, std::max(static_cast<int>(scene.trajectory.size()) - 1, 0));
-  if (scene.trajectory.empty() || !scene.trajectory[state_.position].is_finite()) return;
-  scene.frame.index = state_.position;
-  scene.frame.camera.world_to_camera = scene.trajectory[state_.position].camera_to_world.inverse();
-  repaint_ = true;
-}
-
-void ViewerApp::jump_keyframes(int count) {
-  const ViewerScene& scene = input_.scene;
-  if (count == 0 || scene.keyframes.empty() || scene.trajectory.empty()) return;
-  const double time =
-      scene.trajectory[std::min<std::size_t>(state_.position, scene.trajectory.size() - 1)].timestamp;
-  const auto later = [](double t, const StampedPose& pose) { return t < pose.timestamp; };
-  const auto next = std::upper_bound(scene.keyframes.begin(), scene.keyframes.end(), time, later);
-  const auto here = next - scene.keyframes.begin() - 1;
-  const auto last = static_cast<std::ptrdiff_t>(scene.keyframes.size()) - 1;
-  const StampedPose& keyframe = scene.keyframes[std::clamp<std::ptrdiff_t>(here + count, 0, last)];
-  const auto found = std::lower_bound(scene.trajectory.begin(), scene.trajectory.end(), keyframe.timestamp,
-                                      [](const StampedPose& pose, double t) { return pose.timestamp < t; });
-  const auto position = static_cast<int>(found - scene.trajectory.begin());
-  if (input_.live)
-    state_.position = position;
-  else
-    choose_frame(position);
-  camera_.look_through({scene.frame.camera.intrinsics, keyframe.camera_to_world.inverse()});
-  state_.style = CameraStyle::Orbit;
-  state_.running = state_.running && input_.live;
-  repaint_ = true;
+ViewMode ViewerApp::shown_mode() const {
+  return waits_for_map() && has_sensor() ? ViewMode::Sensor : state_.view.mode;
 }
 
 bool ViewerApp::has_sensor() const {
-  return input_.live ? !input_.scene.frame.colour.empty()
-                     : input_.load_frame && input_.scene.frame.index >= 0;
+  const SceneFrame& frame = input_.scene.frame;
+  return !frame.colour.empty() || (input_.load_frame && frame.index >= 0);
 }
 
 /// Gives the painter the images of the frame, where a mode needs them.
 void ViewerApp::load_sensor() {
   SceneFrame& frame = input_.scene.frame;
-  if (!info_of(state_.view.mode).needs_sensor) return;
+  if (!info_of(shown_mode()).needs_sensor) return;
   if (!input_.live && input_.load_frame && loaded_position_ != state_.position) {
     std::optional<SceneFrame> loaded = input_.load_frame(state_.position);
     frame.colour = loaded ? loaded->colour : cv::Mat();
@@ -232,29 +195,14 @@ void ViewerApp::load_sensor() {
   new_sensor_ = false;
 }
 
-PanelContent ViewerApp::panel_content() const {
-  return {.status = input_.scene.status,
-          .message = message_,
-          .gaussians = painter_.gaussians(),
-          .live = input_.live && !finished_,
-          .has_sensor = has_sensor(),
-          .positions = input_.live ? 0 : static_cast<int>(input_.scene.trajectory.size()),
-          .scale = window_.scale(),
-          .numbers = &input_.scene.numbers};
-}
-
 void ViewerApp::lay_out(ViewerRequests& requests) {
   const ViewerState before = state_;
   std::vector<std::size_t> changed;
   interface_.lay_out([&] {
+    draw_labels(labels(Clock::now()));
     if (!state_.interface) return;
     const ViewerRequests asked = draw_panel(panel_content(), state_, input_.settings, changed);
-    requests.screenshot |= asked.screenshot;
-    requests.save_map |= asked.save_map;
-    requests.step |= asked.step;
-    requests.reset |= asked.reset;
-    requests.stop |= asked.stop;
-    requests.keyframes += asked.keyframes;
+    requests.add(asked);
   });
   for (std::size_t i : changed) input_.live->change(input_.settings[i].key, input_.settings[i].value);
   apply(before);
@@ -264,12 +212,18 @@ void ViewerApp::paint(const Eigen::Vector2i& window) {
   load_sensor();
   place_camera();
   const Eigen::Vector2i size = (window / state_.coarseness).cwiseMax(1);
-  painter_.paint(camera_.camera(size.x(), size.y()), state_.view, lines_of(input_.scene, state_.overlay));
+  painted_ = camera_.camera(size.x(), size.y());
+  ViewSettings view = state_.view;
+  view.mode = shown_mode();
+  painter_.paint(painted_, view, lines(painted_));
+  measured_.reset();
+  hint_.reset();
   repaint_ = false;
 }
 
 void ViewerApp::draw(ViewerRequests& requests) {
   shown_ = std::max(shown_ - 1, 0);
+  last_shown_ = Clock::now();
   lay_out(requests);
   const Eigen::Vector2i window = window_.pixels();
   const Eigen::Vector2i size = (window / state_.coarseness).cwiseMax(1);
@@ -285,7 +239,10 @@ void ViewerApp::fulfil(const ViewerRequests& requests) {
   if (requests.step && input_.live) input_.live->step();
   if (requests.step && !input_.live) choose_frame(state_.position + 1);
   if (requests.stop && input_.live) input_.live->stop();
-  jump_keyframes(requests.keyframes);
+  if (requests.keyframes != 0) go_to_keyframe(keyframe_shown() + requests.keyframes);
+  if (requests.keyframe >= 0) go_to_keyframe(requests.keyframe);
+  if (requests.clear) forget_picks();
+  jump_seconds(requests.seconds);
   if (requests.screenshot) save_screenshot();
   if (requests.save_map) save_map();
   if (requests.close) window_.close();

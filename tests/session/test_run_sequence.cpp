@@ -57,6 +57,11 @@ class DamagedOffice : public FrameSource {
 class Watcher : public RunObserver {
  public:
   void before_frame(Slam&) override { ++before; }
+  void tracked(const Frame& frame, const FrameReport& report) override {
+    CHECK(known.size() == told.size());  // before the frame is in the map
+    CHECK(report.index == frame.index);
+    known.push_back(frame.index);
+  }
   void fed(const Frame& frame, const Slam&, const FrameReport&) override {
     told.push_back(frame.index);
     if (frame.index == throws_at) throw InputError("the disk is full");
@@ -66,7 +71,7 @@ class Watcher : public RunObserver {
 
   int throws_at = -1, stops_at = -1;
   int before = 0;
-  std::vector<int> told, passed_over;
+  std::vector<int> known, told, passed_over;
   std::stop_source stop;
 };
 
@@ -93,6 +98,7 @@ TEST_CASE("a sequence is fed to its end, with the bits of feeding it frame by fr
   CHECK(outcome.finished);
   CHECK(outcome.run.skipped.empty());
   CHECK(watcher.told == std::vector{0, 1, 2, 3, 4, 5});
+  CHECK(watcher.known == watcher.told);
   CHECK(watcher.before == kFrames);
 
   const SyntheticRecording recording = office(kFrames);

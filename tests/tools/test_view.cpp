@@ -1,128 +1,12 @@
-#include <fmt/format.h>
-
-#include <chrono>
-#include <cmath>
-#include <functional>
 #include <opencv2/core.hpp>
-#include <random>
-#include <thread>
 
 #include "engine/formats/ply.h"
 #include "engine/io/files.h"
 #include "engine/io/images.h"
-#include "engine/window/viewer.h"
-#include "tests/tools/support.h"
-#include "tests/tools/virtual_screen.h"
+#include "tests/tools/view_session.h"
 
 using namespace surefield;
 using namespace surefield::test;
-
-namespace {
-
-/// A heap of Gaussians of all colours around a place 2 m before the first camera.
-GaussianCloud heap() {
-  std::mt19937 random(3);
-  std::uniform_real_distribution<float> uniform(-1, 1);
-  GaussianCloud cloud;
-  cloud.resize(400);
-  for (std::size_t i = 0; i < cloud.size(); ++i) {
-    cloud.means[i] = {0.6f * uniform(random), 0.4f * uniform(random), 2 + 0.5f * uniform(random)};
-    cloud.log_scales[i].setConstant(std::log(0.03f));
-    cloud.opacity_logits[i] = 3 * uniform(random);
-    for (int c = 0; c < 3; ++c) cloud.sh[3 * i + c] = 1.7f * uniform(random);
-  }
-  return cloud;
-}
-
-/// Waits for something, at most half a minute.
-bool wait_for(const std::function<bool()>& happened) {
-  for (int i = 0; i < 300; ++i) {
-    if (happened()) return true;
-    std::this_thread::sleep_for(std::chrono::milliseconds(100));
-  }
-  return false;
-}
-
-bool can_show_windows() {
-  if (VirtualScreen::available() && !viewer_problem().starts_with("this program was built without"))
-    return true;
-  MESSAGE("skipped: needs Xvfb, xdotool and a build with GLFW and Dear ImGui");
-  return false;
-}
-
-/// A viewer on a virtual screen, and what is done to it.
-class Session {
- public:
-  Session(const TemporaryFolder& folder, std::vector<std::string> arguments)
-      : folder_(folder), screen_(folder.path(), 900, 600), program_(std::move(arguments), folder.path()) {
-    window_ = screen_.find_window("Surefield");
-    screen_.act("windowsize " + window_ + " 700 450");
-    screen_.act("mousemove 600 300");
-  }
-
-  /// Presses a key that changes the picture, and waits until it has changed.
-  bool changes(const std::string& act) {
-    settle();
-    const cv::Mat before = screen_.picture();
-    screen_.act(act);
-    return wait_for([&] { return cv::norm(before, screen_.picture(), cv::NORM_INF) > 8; });
-  }
-
-  /// Saves a screenshot; the window must show the same, which is the picture that is returned.
-  cv::Mat screenshot() {
-    ++screenshots_;
-    const std::string stem = this->stem();
-    screen_.act("key p");
-    const bool there = wait_for([&] { return std::filesystem::exists(folder_ / (stem + ".json")); });
-    REQUIRE_MESSAGE(there, program_.err());
-    const cv::Mat saved = read_colour(folder_ / (stem + ".png"));
-    double difference = 255;
-    wait_for([&] {
-      const cv::Mat shown = screen_.picture()(cv::Rect(0, 0, saved.cols, saved.rows));
-      difference = cv::norm(shown, saved, cv::NORM_INF);
-      return difference <= 1;
-    });
-    CHECK(difference <= 1);
-    return saved;
-  }
-
-  /// The camera of the last screenshot, as a file.
-  std::filesystem::path camera() const { return folder_ / (stem() + ".json"); }
-
-  /// Closes the window; returns the exit code.
-  int close() {
-    screen_.act("mousemove 60 60 key Escape");  // what has been hidden gets keys again only under the mouse
-    const int code = program_.wait();
-    CHECK_MESSAGE(!contains(program_.err(), "validation"), program_.err());
-    return code;
-  }
-
-  /// Waits until the screen rests.
-  void settle() const {
-    cv::Mat last;
-    wait_for([&] {
-      const cv::Mat now = screen_.picture();
-      const bool rests = !last.empty() && cv::norm(last, now, cv::NORM_INF) == 0;
-      last = now;
-      return rests;
-    });
-  }
-
-  void act(const std::string& words) const { screen_.act(words); }
-  const std::string& window() const { return window_; }
-
- private:
-  /// Of the last screenshot's files.
-  std::string stem() const { return fmt::format("screenshot_{:04}", screenshots_); }
-
-  const TemporaryFolder& folder_;
-  VirtualScreen screen_;
-  Program program_;
-  std::string window_;
-  int screenshots_ = 0;
-};
-
-}  // namespace
 
 TEST_CASE(
     "[slow] the window shows what render paints, obeys keys and mouse, and survives being resized and "
@@ -130,7 +14,7 @@ TEST_CASE(
   if (!can_show_windows()) return;
   const TemporaryFolder folder;
   write_ply(folder / "map.ply", heap());
-  Session session(folder, {"view", folder / "map.ply", "--out", folder.path(), "--validate"});
+  ViewSession session(folder, {"view", folder / "map.ply", "--out", folder.path(), "--validate"});
   CHECK(session.changes("key Tab"));  // hides the panel
   const cv::Mat first = session.screenshot();
   CHECK(first.size() == cv::Size(700, 450));
@@ -175,7 +59,7 @@ TEST_CASE("[slow] a run with a viewer gives the trajectory of one without, whate
   REQUIRE_MESSAGE(alone.code == 0, alone.err);
   std::vector<std::string> arguments = short_run(folder / "seen", 6);
   arguments.insert(arguments.end(), {"--viewer", "--validate"});
-  Session session(folder, arguments);
+  ViewSession session(folder, arguments);
   for (const char* words :
        {"key Tab", "key 7", "key space", "key n", "mousedown 1 mousemove 480 350 mouseup 1", "key 0", "key c",
         "key space", "key b", "key 1", "key Page_Up"})

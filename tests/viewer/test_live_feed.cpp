@@ -71,6 +71,21 @@ TEST_CASE("a run hands over every number, but a scene and a map only when the wi
   CHECK(feed.take().finished);
 }
 
+TEST_CASE("what is announced before the first frame is shown until that is done, which it does not delay") {
+  LiveFeed feed;
+  ViewerScene scene;
+  scene.waiting_for = "the first frame";
+  feed.announce(scene);
+  CHECK(feed.take().scene->waiting_for == "the first frame");
+  feed.announce(scene);
+  Run run{feed};
+  run.publish(true);
+  const LiveFeed::Update update = feed.take();
+  CHECK(update.scene->status == "1");
+  CHECK(update.scene->waiting_for.empty());
+  CHECK(update.map);
+}
+
 TEST_CASE("a paused run waits, takes single steps, and goes on when it is asked to or to end") {
   LiveFeed feed;
   CHECK(feed.may_go_on(0ms));

@@ -34,6 +34,7 @@ struct RunOptions {
   PictureSize film_size{1280, 720};
   bool viewer = false;  ///< shows a window beside the run
   UpChoice up;          ///< where up is in the run's world, that of its first camera
+  double ui_scale = 0;  ///< of that window, as ViewerInput::ui_scale
 };
 
 /// Opens the dataset that the options name. Throws InputError; where the options say no delay of the depth

@@ -11,6 +11,7 @@
 #include "tools/run/run_viewer.h"
 #include "tools/shared/command.h"
 #include "tools/shared/interrupt.h"
+#include "tools/shared/ui_scale.h"
 
 namespace surefield {
 
@@ -112,6 +113,7 @@ void add_run(CLI::App& program, Action& action) {
       "Where up is in the world of the run, whose axes are its first camera's: right, down and forward; "
       "auto (by the map's surfaces) or camera (as the cameras were held). What shows or turns the map "
       "later goes by it (docs/viewer.md). Default: auto");
+  add_ui_scale_option(*run, options->ui_scale);
   run->add_flag("--overwrite", options->overwrite,
                 "Replaces the earlier run that --out holds; other files that are there stay");
   run->add_flag(

@@ -53,7 +53,10 @@ class ViewerObserver : public RunObserver {
     input.live = &feed_;
     input.interrupted = [this] { return interrupted() && !feed_.stop_wanted(); };
     for (const char* key : kLiveSettings) input.settings.push_back(schema_.number(key));
-    input.scene.status = "the first frame";
+    // The window outlives the run, and its log.
+    input.note = [](const std::string& text) { say(stdout, "{}\n", text); };
+    input.scene.status = "waiting for the first frame";
+    input.scene.waiting_for = "Waiting for the first frame";
     begun_ = true;
     input_.set_value(std::move(input));
   }
@@ -70,6 +73,23 @@ class ViewerObserver : public RunObserver {
       log_->info("the user has set {}={}", key, number);
     }
     if (!changes.empty()) slam.change(settings_);
+  }
+
+  void tracked(const Frame& frame, const FrameReport&) override {
+    if (fed_ > 0) return;
+    ViewerScene scene;
+    scene.status = "the first frame";
+    scene.waiting_for = fmt::format("The first frame becomes a map, in {} steps", settings_.first_iterations);
+    scene.frame = {0, {source_->intrinsics()}, frame.colour, frame.depth};
+    feed_.announce(std::move(scene));
+  }
+
+  void skipped(const SkippedFrame& frame) override {
+    if (fed_ > 0) return;
+    ViewerScene scene;
+    scene.status = fmt::format("frame {} could not be used", frame.index);
+    scene.waiting_for = fmt::format("Frame {} could not be used: {}", frame.index, frame.reason);
+    feed_.announce(std::move(scene));
   }
 
   void fed(const Frame& frame, const Slam& slam, const FrameReport& report) override {
@@ -148,6 +168,7 @@ class ViewerObserver : public RunObserver {
 void show(ViewerInput input, const RunOptions& options) {
   input.engine = options.engine;
   if (options.up.way == UpChoice::Way::Given) input.up = options.up.given;
+  input.ui_scale = options.ui_scale;
   try {
     for (const std::string& message : show_viewer(std::move(input)))
       say(stderr, "surefield: validation: {}\n", message);

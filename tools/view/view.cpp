@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <cstdio>
 #include <filesystem>
 #include <memory>
 
@@ -12,6 +13,7 @@
 #include "tools/shared/interrupt.h"
 #include "tools/shared/load_map.h"
 #include "tools/shared/up_option.h"
+#include "tools/shared/ui_scale.h"
 
 namespace surefield {
 
@@ -20,7 +22,8 @@ namespace {
 constexpr const char* kViewExamples =
     "Shows a map in a window: walk through it, see depth, uncertainty, ellipsoids or normals instead of\n"
     "colours, and, for the folder of a run, play the trajectory back beside the camera's images. The keys\n"
-    "are listed in the window; docs/viewer.md explains the modes. Without a display, use surefield render.\n"
+    "are listed in the window; docs/viewer.md explains the modes. Clicks print what was clicked, and what\n"
+    "the ruler has measured, in metres. Without a display, use surefield render.\n"
     "\n"
     "Examples:\n"
     "  surefield view out/desk\n"
@@ -30,6 +33,7 @@ struct ViewOptions {
   std::string what;  ///< a folder of a run, or a file
   std::string dataset;
   std::string out = ".";
+  double ui_scale = 0;  ///< 0: as the screen asks
   EngineOptions engine;
   UpChoice up;
 };
@@ -67,6 +71,11 @@ int view(const ViewOptions& options) {
   input.title = "Surefield: " + options.what;
   input.out = options.out;
   input.engine = options.engine;
+  input.ui_scale = options.ui_scale;
+  input.note = [](const std::string& text) {
+    fmt::print("{}\n", text);
+    std::fflush(stdout);
+  };
   input.interrupted = interrupted;
   std::filesystem::path file = options.what;
   std::optional<UpDirection> recorded;
@@ -99,6 +108,7 @@ void add_view(CLI::App& program, Action& action) {
       *command, options->up,
       "Where up is, in the world of the map; auto (by its surfaces) or camera (as the cameras were held). "
       "Default: as the run has recorded it, else auto");
+  add_ui_scale_option(*command, options->ui_scale);
   command->add_option("--device", options->engine.device,
                       "Number or part of the name of the device, see surefield devices; default: the best");
   command->add_flag("--validate", options->engine.validate, "Runs under Vulkan's validation layer (slow)");
