@@ -37,9 +37,8 @@ std::vector<int> best_apart(const std::vector<double>& scores, int count, int ap
   std::vector<int> best;
   for (const auto& [score, k] : order) {
     if (static_cast<int>(best.size()) >= count) break;
-    const bool beside = std::any_of(best.begin(), best.end(), [&, k = k](int other) {
-      return std::abs(other - k) <= apart;
-    });
+    const bool beside =
+        std::any_of(best.begin(), best.end(), [&, k = k](int other) { return std::abs(other - k) <= apart; });
     if (!beside) best.push_back(k);
   }
   return best;

@@ -19,7 +19,8 @@ class PlaceMemory {
   void add(const LocalFeatures& features);
   void replace_last(const LocalFeatures& features);
 
-  /// The similarity of each keyframe to a view, a cosine in [-1, 1]; 0 where one of the two shows no features.
+  /// The similarity of each keyframe to a view, a cosine in [-1, 1]; 0 where one of the two shows no
+  /// features.
   std::vector<double> similarities(const LocalFeatures& features) const;
   /// The same, of a keyframe to those before it.
   std::vector<double> similarities(int keyframe) const;

@@ -28,13 +28,14 @@ std::string loops_csv(const std::vector<Loop>& loops, const std::vector<int>& fr
     const Eigen::Vector3d t = measured.pose.translation();
     const Eigen::Quaterniond q(measured.pose.rotation());
     text += fmt::format(
-        "{},{},{:.4f},{},{:.4f},{:.4f},{:.4f},{:.3f},{:.4f},{:.3f},{:.4g},{},{},{:.7g},{:.7g},{:.7g},{:.9g},{:.9g},"
+        "{},{},{:.4f},{},{:.4f},{:.4f},{:.4f},{:.3f},{:.4f},{:.3f},{:.4g},{},{},{:.7g},{:.7g},{:.7g},{:.9g},{"
+        ":.9g},"
         "{:.9g},{:.9g},{}\n",
         frames[static_cast<std::size_t>(measured.from)], frames[static_cast<std::size_t>(measured.to)],
         loop.similarity, loop.inliers, loop.depth.shared, loop.depth.agreeing, loop.depth.seen_through,
         100 * loop.correction_position, loop.correction_rotation * 180 / std::numbers::pi,
-        loop.correction_pixels, loop.correction_chi2, loop.counts() ? 1 : 0, name_of(loop.verdict), t.x(), t.y(), t.z(), q.x(), q.y(),
-        q.z(), q.w(), information_text(measured.information));
+        loop.correction_pixels, loop.correction_chi2, loop.counts() ? 1 : 0, name_of(loop.verdict), t.x(),
+        t.y(), t.z(), q.x(), q.y(), q.z(), q.w(), information_text(measured.information));
   }
   return text;
 }

@@ -20,8 +20,8 @@ namespace surefield {
 
 namespace {
 
-constexpr std::array kResultNames = {"trajectory.txt", "trajectory_online.txt", "keyframes.txt", "frames.csv", "loops.csv",
-                                     "metrics.json",   "config.yaml",   "log.txt"};
+constexpr std::array kResultNames = {"trajectory.txt", "trajectory_online.txt", "keyframes.txt", "frames.csv",
+                                     "loops.csv",      "metrics.json",          "config.yaml",   "log.txt"};
 constexpr const char* kPartial = "partial";
 
 /// A time and a random number: an id that sorts by the beginning of the run and that no other run has.

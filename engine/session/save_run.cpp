@@ -37,7 +37,8 @@ void save_run(ResultsFolder& results, const Slam& slam, const FrameSource& sourc
   save_trajectory("keyframes.txt", slam.keyframes());
   save_trajectory("trajectory_online.txt", slam.online_trajectory());
   results.save("loops.csv", [&](const auto& file) {
-    write_file(file, [&](std::ostream& stream) { stream << loops_csv(slam.loops(), keyframe_indices(slam)); });
+    write_file(file,
+               [&](std::ostream& stream) { stream << loops_csv(slam.loops(), keyframe_indices(slam)); });
   });
   save_map(results, slam, map_format);
   results.save("frames.csv", [&](const auto& file) {

@@ -9,8 +9,8 @@ namespace surefield {
 
 namespace {
 
-constexpr double kSame = 0.05;      // metres of difference that are none, at least
-constexpr double kSameSigmas = 3;   // deviations of the sensor
+constexpr double kSame = 0.05;     // metres of difference that are none, at least
+constexpr double kSameSigmas = 3;  // deviations of the sensor
 
 /// Calls visit(point in the camera's frame) for every cell with depth.
 template <typename Visit>
@@ -22,14 +22,15 @@ void for_each_point(const DepthView& view, Visit visit) {
     for (int x = 0; x < grid.width; ++x) {
       const double z = grid.depth[static_cast<std::size_t>(y) * grid.width + x];
       if (z > 0)
-        visit(Eigen::Vector3d(z * (x * grid.cell + half - k.cx) / k.fx, z * (y * grid.cell + half - k.cy) / k.fy, z));
+        visit(Eigen::Vector3d(z * (x * grid.cell + half - k.cx) / k.fx,
+                              z * (y * grid.cell + half - k.cy) / k.fy, z));
     }
 }
 
 /// The least and the largest depth of the four cells around a pixel.
 struct DepthRange {
-  bool inside = false;   ///< all four are cells of the image
-  bool measured = false; ///< and have depth
+  bool inside = false;    ///< all four are cells of the image
+  bool measured = false;  ///< and have depth
   double least = 0, largest = 0;
 };
 
@@ -90,7 +91,8 @@ double median_shift(const DepthView& view, const Pose& corrected) {
   std::vector<double> shifts;
   for_each_point(view, [&](const Eigen::Vector3d& point) {
     const Eigen::Vector3d p = motion * point;
-    const Eigen::Vector2d shift = p.z() > 0 ? (p.hnormalized() - point.hnormalized()).eval() : Eigen::Vector2d(1, 1);
+    const Eigen::Vector2d shift =
+        p.z() > 0 ? (p.hnormalized() - point.hnormalized()).eval() : Eigen::Vector2d(1, 1);
     shifts.push_back(std::hypot(k.fx * shift.x(), k.fy * shift.y()));
   });
   return shifts.empty() ? 0 : median(shifts);

@@ -54,7 +54,8 @@ void KeyframeGraph::return_to(int k, int most_references) {
 std::vector<TrackingReference> KeyframeGraph::references_at(int k) const {
   std::vector<TrackingReference> references;
   for (int near : {k, k - 1, k + 1, k + 2})
-    if (near >= 0 && near <= newest()) references.push_back({keyframes_[near].tracked, keyframes_[near].camera});
+    if (near >= 0 && near <= newest())
+      references.push_back({keyframes_[near].tracked, keyframes_[near].camera});
   return references;
 }
 

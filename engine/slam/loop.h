@@ -6,17 +6,17 @@ namespace surefield {
 
 /// What became of a place that looked known (docs/places.md, "Loops").
 enum class LoopVerdict {
-  Accepted,     ///< it is that place: the poses were corrected by it
-  Agreed,       ///< it is, and the poses say so already, as well as can be measured
-  Waiting,      ///< it seems to be; no keyframe beside it has said the same yet
-  FewMatches,   ///< features that one motion lays on each other are too few
-  Clustered,    ///< those lie in one corner of the image
-  Unaligned,    ///< aligned to the keyframes beside it, the camera is elsewhere
-  LittleShared, ///< too little of what the one sees is in the other's image
-  OtherDepth,   ///< where both have depth they differ
-  SeenThrough,  ///< the one looks through what the other shows: another place that looks alike
-  TooFar,       ///< so much the camera cannot have drifted
-  Contradicted  ///< the other measurements speak against it: taken back after the poses were corrected
+  Accepted,      ///< it is that place: the poses were corrected by it
+  Agreed,        ///< it is, and the poses say so already, as well as can be measured
+  Waiting,       ///< it seems to be; no keyframe beside it has said the same yet
+  FewMatches,    ///< features that one motion lays on each other are too few
+  Clustered,     ///< those lie in one corner of the image
+  Unaligned,     ///< aligned to the keyframes beside it, the camera is elsewhere
+  LittleShared,  ///< too little of what the one sees is in the other's image
+  OtherDepth,    ///< where both have depth they differ
+  SeenThrough,   ///< the one looks through what the other shows: another place that looks alike
+  TooFar,        ///< so much the camera cannot have drifted
+  Contradicted   ///< the other measurements speak against it: taken back after the poses were corrected
 };
 
 /// A word for it, as loops.csv has it.
@@ -24,8 +24,8 @@ const char* name_of(LoopVerdict verdict);
 
 /// How much the images of two keyframes agree where one motion lays them on each other; shares of cells.
 struct DepthAgreement {
-  double shared = 0;        ///< of the cells with depth of one, those in the other's image; the larger of both
-  double agreeing = 0;      ///< of the cells in both with depth in both: equal depth
+  double shared = 0;    ///< of the cells with depth of one, those in the other's image; the larger of both
+  double agreeing = 0;  ///< of the cells in both with depth in both: equal depth
   double seen_through = 0;  ///< of those that are not hidden: the other measured beyond; the larger of both
 };
 
@@ -40,8 +40,8 @@ struct Loop {
   double correction_position = 0;  ///< by which the new keyframe's pose is off then, metres
   double correction_rotation = 0;  ///< radians
   double correction_pixels = 0;    ///< by how much what it sees moves in its image then, the median
-  /// The squared correction in deviations of the measurement; below 12.6 in 19 of 20 cases where the poses are
-  /// right.
+  /// The squared correction in deviations of the measurement; below 12.6 in 19 of 20 cases where the poses
+  /// are right.
   double correction_chi2 = 0;
   LoopVerdict verdict = LoopVerdict::FewMatches;
 

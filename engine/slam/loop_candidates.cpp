@@ -10,10 +10,10 @@ namespace {
 
 // A place has been left after so many keyframes and so much path, or turning.
 constexpr int kLeastKeyframes = 10;
-constexpr double kLeastPath = 1;                                   // metres
-constexpr double kLeastTurn = 60 * std::numbers::pi / 180;         // radians
-constexpr int kByLook = 3, kByPose = 1;                            // candidates
-constexpr int kApart = 5;                                          // keyframes between candidates
+constexpr double kLeastPath = 1;                            // metres
+constexpr double kLeastTurn = 60 * std::numbers::pi / 180;  // radians
+constexpr int kByLook = 3, kByPose = 1;                     // candidates
+constexpr int kApart = 5;                                   // keyframes between candidates
 // Of what keyframes that see the same have, the similarity that one from elsewhere must have.
 constexpr double kLeastSimilarity = 0.7;
 constexpr double kLeastOverlap = 0.4;  // both ways

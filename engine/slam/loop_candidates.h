@@ -19,7 +19,7 @@ class Odometer {
   /// The newest keyframe was added, and comes after keyframe `before` (-1: none).
   void add(const KeyframeGraph& keyframes, int before);
 
-  double path(int from, int to) const { return path_[to] - path_[from]; }   ///< metres
+  double path(int from, int to) const { return path_[to] - path_[from]; }        ///< metres
   double turned(int from, int to) const { return turned_[to] - turned_[from]; }  ///< radians
   /// Whether a keyframe that sees the place of `from` in `to` has come back to it.
   bool has_left(int from, int to) const;

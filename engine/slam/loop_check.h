@@ -6,8 +6,8 @@
 
 namespace surefield {
 
-/// What two aligned keyframes tell of each other: their covariance, and what no alignment knows better than (a
-/// millimetre and half a per cent of the depth), as information.
+/// What two aligned keyframes tell of each other: their covariance, and what no alignment knows better than
+/// (a millimetre and half a per cent of the depth), as information.
 Matrix6 pair_information(const PoseCovariance& covariance, const Keyframe& seen);
 
 /// Judges whether the newest keyframe sees the place of an older one, from what is cheap to what is dear:

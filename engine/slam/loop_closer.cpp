@@ -7,7 +7,7 @@ namespace surefield {
 
 namespace {
 
-constexpr int kRest = 5;       // keyframes, after one that has found its place as it is thought to be
+constexpr int kRest = 5;         // keyframes, after one that has found its place as it is thought to be
 constexpr int kConsecutive = 2;  // keyframes before the newest that may say the same
 // Corrections that say the same, metres and radians.
 constexpr double kSamePosition = 0.03, kSameRotation = 1.5 * std::numbers::pi / 180;
@@ -37,8 +37,8 @@ std::optional<int> LoopCloser::close(int before, const PoseCovariance& covarianc
   return std::nullopt;
 }
 
-/// As the poses are now that the newest keyframe is mapped. One measurement a keyframe: those to others that it
-/// was aligned to as well err with it, and would make a chain that does not bend.
+/// As the poses are now that the newest keyframe is mapped. One measurement a keyframe: those to others that
+/// it was aligned to as well err with it, and would make a chain that does not bend.
 void LoopCloser::add_odometry(int before, const PoseCovariance& covariance) {
   if (before < 0) return;
   const int newest = keyframes_.newest();
@@ -93,8 +93,8 @@ bool LoopCloser::correct() {
       if (loop.counts()) graph.add_edge(loop.measured, kernel);
     graph.solve();
   };
-  // Before they are followed, loops are so far off that a kernel would leave them out; afterwards it lets go of
-  // those that are not like the others.
+  // Before they are followed, loops are so far off that a kernel would leave them out; afterwards it lets go
+  // of those that are not like the others.
   add_loops({});
   add_loops(kLoopKernel);
   for (int loop = loops; loop < graph.edges(); ++loop)

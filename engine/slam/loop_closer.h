@@ -20,9 +20,9 @@ class LoopCloser {
 
   /// There is a first keyframe, or another in its place.
   void begin();
-  /// The newest keyframe is mapped and has its window; it was tracked after keyframe `before` (-1: none), with
-  /// this covariance. Looks for places that it sees again; where it has come back to one that the poses do
-  /// not lead to, corrects poses and map. Returns the keyframe that it has come back to then.
+  /// The newest keyframe is mapped and has its window; it was tracked after keyframe `before` (-1: none),
+  /// with this covariance. Looks for places that it sees again; where it has come back to one that the poses
+  /// do not lead to, corrects poses and map. Returns the keyframe that it has come back to then.
   std::optional<int> close(int before, const PoseCovariance& covariance);
 
   /// All that was judged, in the order of the newer keyframe.

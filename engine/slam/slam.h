@@ -89,8 +89,8 @@ class Slam {
   Trajectory keyframes() const;
   /// Those that were optimised together last: positions in keyframes(), the newest last.
   std::vector<int> window() const;
-  /// The places that looked known, with what came of it: in the order of the newer of the two keyframes, which
-  /// are positions in keyframes().
+  /// The places that looked known, with what came of it: in the order of the newer of the two keyframes,
+  /// which are positions in keyframes().
   std::vector<Loop> loops() const;
   /// The Gaussian map.
   GaussianCloud map() const;

@@ -180,8 +180,7 @@ void Slam::Implementation::map_first(const Frame& frame) {
 void Slam::Implementation::extend_map(const Frame& frame, Sighting sighting) {
   const FrameReport& report = history.last_report();
   tracker.accept(report);
-  if (report.found_at >= 0)
-    keyframes.return_to(report.found_at, settings.tracking.gauss_newton.references);
+  if (report.found_at >= 0) keyframes.return_to(report.found_at, settings.tracking.gauss_newton.references);
   first_frame.reset();
   pending.reset();
   if (report.keyframe) {

@@ -115,8 +115,8 @@ struct Slam::Implementation {
   void extend_map(const Frame& frame, Sighting sighting);
   void map_keyframe(const Frame& frame, Sighting sighting);
   Frame add_keyframe(const Frame& frame, Sighting sighting);
-  /// Closes a loop where the newest keyframe, which is mapped, has come back to a place; both visits are mapped
-  /// together then.
+  /// Closes a loop where the newest keyframe, which is mapped, has come back to a place; both visits are
+  /// mapped together then.
   void close_loop();
   /// Takes what moves out of the newest keyframe, whose images `mapped` are, and out of those that were last
   /// optimised together, where the one looks through what the other shows.

@@ -54,8 +54,8 @@ class SplatEngine {
   /// places, when there is no room for all of it.
   int focus(std::span<const WorldPoints> regions, uint32_t births);
 
-  /// Moves the whole map with the keyframes that its Gaussians were born in: motions[a], a motion in the world,
-  /// is that of the Gaussians whose anchor is a (GaussianCloud::anchors); those of later anchors stay.
+  /// Moves the whole map with the keyframes that its Gaussians were born in: motions[a], a motion in the
+  /// world, is that of the Gaussians whose anchor is a (GaussianCloud::anchors); those of later anchors stay.
   void move(std::span<const Pose> motions);
 
   /// Renders a camera; with sensor depth (metres, row-major), also the uncertainty.
@@ -69,8 +69,8 @@ class SplatEngine {
   TrackingResult track(FrameHandle frame, const Camera& start, const TrackingSettings& settings,
                        std::span<const TrackingReference> references = {});
 
-  /// Finds the pose of a frame relative to one `reference` alone, by Gauss-Newton from that of `start`, coarse to
-  /// fine: the map has no part in it. Throws UsageError where the two are not of one size.
+  /// Finds the pose of a frame relative to one `reference` alone, by Gauss-Newton from that of `start`,
+  /// coarse to fine: the map has no part in it. Throws UsageError where the two are not of one size.
   PairAlignment align(FrameHandle frame, const Camera& start, const TrackingReference& reference,
                       const TrackingSettings& settings);
 

@@ -320,9 +320,9 @@ bool GaussNewtonTracker::kept_render_serves(const Camera& start, const TrackingS
 
 PoseEvidence GaussNewtonTracker::read_evidence(const SensorFrame& frame, const Sources& sources) const {
   if (!can_interpolate(frame.size)) return {};
-  return evidence_of(evidence_.download(2 * sources.count), kEvidencePixels *
-                                                                stride_of(kEvidenceStride, frame.size) /
-                                                                static_cast<double>(frame.size.pixels()));
+  return evidence_of(
+      evidence_.download(2 * sources.count),
+      kEvidencePixels * stride_of(kEvidenceStride, frame.size) / static_cast<double>(frame.size.pixels()));
 }
 
 PairAlignment GaussNewtonTracker::align(Rasteriser& rasteriser, const SensorFrame& frame, const Camera& start,

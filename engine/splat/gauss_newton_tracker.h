@@ -70,7 +70,8 @@ class GaussNewtonTracker {
   /// one.
   enum class Target { Kept, First, Later };
 
-  /// What a frame is aligned to: so many sources, from this one on; 0 is the render, the others are keyframes.
+  /// What a frame is aligned to: so many sources, from this one on; 0 is the render, the others are
+  /// keyframes.
   struct Sources {
     uint32_t first = 0;
     uint32_t count = 1;

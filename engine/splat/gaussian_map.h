@@ -84,8 +84,8 @@ class GaussianMap {
   DepthModel depth_model_ = DepthModel::Plane;
 };
 
-/// Adds the parameters, sampling, anchors and uncertainties of records of GaussianMap to a cloud of the same SH
-/// degree.
+/// Adds the parameters, sampling, anchors and uncertainties of records of GaussianMap to a cloud of the same
+/// SH degree.
 void append_to(GaussianCloud& cloud, std::span<const uint32_t> records, uint32_t record_words);
 
 template <class Visit>

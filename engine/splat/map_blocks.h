@@ -29,8 +29,9 @@ class MapBlocks {
   bool recall(GaussianMap& map, const WorldPoints& points);
   int focus(GaussianMap& map, std::span<const WorldPoints> regions, uint32_t births);
 
-  /// Moves the Gaussians in host memory with the keyframes that they were born in: motions[a] is that of anchor
-  /// a in the world, and what has none stays. Those that come to lie in another block are there from now on.
+  /// Moves the Gaussians in host memory with the keyframes that they were born in: motions[a] is that of
+  /// anchor a in the world, and what has none stays. Those that come to lie in another block are there from
+  /// now on.
   void move(GaussianMap& map, std::span<const glsl::AnchorMotion> motions);
 
   /// Gaussians in host memory.

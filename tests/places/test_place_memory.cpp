@@ -13,7 +13,8 @@ LocalFeatures features_of(const Vocabulary& vocabulary, uint32_t seed, int count
   RandomStream random(seed);
   LocalFeatures features(count, kFeatureSize);
   for (int i = 0; i < count; ++i) {
-    const auto word = static_cast<Eigen::Index>(random.uniform(0, static_cast<double>(vocabulary.words.rows()) - 0.01));
+    const auto word =
+        static_cast<Eigen::Index>(random.uniform(0, static_cast<double>(vocabulary.words.rows()) - 0.01));
     features.row(i) = vocabulary.words.row(word);
     for (int n = 0; n < kFeatureSize; ++n) features(i, n) += static_cast<float>(random.uniform(0, 0.05));
     features.row(i).normalize();

@@ -1,9 +1,9 @@
 // Loops: keyframes with the images of a synthetic office and poses that have drifted, without mapping.
 #include <doctest/doctest.h>
 
-#include "engine/eval/trajectory_metrics.h"
+#include <map>
+
 #include "engine/slam/loop_closer.h"
-#include "engine/types/error.h"
 #include "tests/slam/office.h"
 
 using namespace surefield;
@@ -15,9 +15,16 @@ constexpr int kStep = 6;  // frames between keyframes
 
 /// The office, seen by a camera that turns round in it once and a bit more.
 const SyntheticRecording& turn() {
-  static const SyntheticRecording recording(
-      testing::device_options(), {.path = "turn", .width = 200, .height = 150, .frames = 300});
+  static const SyntheticRecording recording(testing::device_options(),
+                                            {.path = "turn", .width = 160, .height = 120, .frames = 300});
   return recording;
+}
+
+/// A frame of it, rendered once.
+const Frame& turn_frame(int i) {
+  static std::map<int, Frame> frames;
+  const auto found = frames.find(i);
+  return found != frames.end() ? found->second : frames.emplace(i, *turn().load(i).frame).first->second;
 }
 
 /// By so much, in the world, a camera that should stand still has moved after so many keyframes.
@@ -39,9 +46,9 @@ struct Walk {
 
   /// Adds the keyframe of a frame where it is thought to be; returns what it has come back to.
   std::optional<int> add(int frame_index, const Pose& world_to_camera) {
-    const Frame frame = *turn().load(frame_index).frame;
-    const FrameHandle handle =
-        engine.load({frame.colour.cols, frame.colour.rows, frame.colour.ptr<uint8_t>(), frame.depth.ptr<float>()});
+    const Frame& frame = turn_frame(frame_index);
+    const FrameHandle handle = engine.load(
+        {frame.colour.cols, frame.colour.rows, frame.colour.ptr<uint8_t>(), frame.depth.ptr<float>()});
     Keyframe keyframe = make_keyframe(frame, handle, {turn().intrinsics(), world_to_camera},
                                       sample_points(frame, turn().intrinsics()));
     keyframe.grid = make_colour_grid(frame);

@@ -224,7 +224,8 @@ TEST_CASE("a camera that was carried back to where it was long ago is found ther
   for (int i : fed) REQUIRE(slam.feed(*recording.load(i).frame).state == TrackingState::Good);
   const int back = 3;
   const auto truth = [&](int i) {
-    return recording.ground_truth()[i].camera_to_world.inverse() * recording.ground_truth()[0].camera_to_world;
+    return recording.ground_truth()[i].camera_to_world.inverse() *
+           recording.ground_truth()[0].camera_to_world;
   };
   const FrameReport found = slam.feed(*recording.load(back).frame);
   CHECK(found.state == TrackingState::Good);

@@ -30,8 +30,8 @@ GaussianCloud scattered(std::size_t count) {
 std::vector<Pose> some_motions() {
   std::vector<Pose> motions(3, Pose::Identity());
   motions[1].translation() = Eigen::Vector3d(3e-4, -2e-4, 1e-4);
-  motions[2] = Eigen::Translation3d(0.3, -0.9, 0.7) *
-               Eigen::AngleAxisd(0.4, Eigen::Vector3d(1, -2, 0.5).normalized());
+  motions[2] =
+      Eigen::Translation3d(0.3, -0.9, 0.7) * Eigen::AngleAxisd(0.4, Eigen::Vector3d(1, -2, 0.5).normalized());
   return motions;
 }
 
@@ -127,8 +127,9 @@ TEST_CASE("what waits in host memory moves too, and is found where it has come t
   const auto order_of = [](const GaussianCloud& cloud) {
     std::vector<std::size_t> order(cloud.size());
     for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
-    std::sort(order.begin(), order.end(),
-              [&](std::size_t a, std::size_t b) { return cloud.opacity_logits[a] < cloud.opacity_logits[b]; });
+    std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+      return cloud.opacity_logits[a] < cloud.opacity_logits[b];
+    });
     return order;
   };
   const auto sorted = [&](const GaussianCloud& cloud) {

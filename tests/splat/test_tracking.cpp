@@ -99,8 +99,7 @@ TEST_CASE("a frame is aligned to another one alone, whatever the map, and tells 
   // The two are where the first is said to be.
   const PairAlignment found =
       engine.align(there_frame, elsewhere, {here_frame, elsewhere}, {.minimum_opacity = 0.9});
-  const Pose error =
-      found.world_to_camera * elsewhere.world_to_camera.inverse() * to_there.inverse();
+  const Pose error = found.world_to_camera * elsewhere.world_to_camera.inverse() * to_there.inverse();
   CHECK(error.translation().norm() < 1e-3);
   CHECK(Eigen::AngleAxisd(error.rotation()).angle() < 5e-4);
   CHECK(found.evidence.information.ldlt().isPositive());

@@ -85,9 +85,9 @@ TEST_CASE("a run leaves its results, and metrics of the documented schema") {
   CHECK(json["schema"] == "surefield-metrics");
   CHECK(json["version"] == 1);
   CHECK(contains(read_file(folder / "out/log.txt"), "run " + json["run"]["id"].get<std::string>()));
-  CHECK(keys(json["run"]["files"]) ==
-        std::set<std::string>{"trajectory.txt", "trajectory_online.txt", "keyframes.txt", "map.ply", "frames.csv",
-                              "loops.csv", "config.yaml"});
+  CHECK(keys(json["run"]["files"]) == std::set<std::string>{"trajectory.txt", "trajectory_online.txt",
+                                                            "keyframes.txt", "map.ply", "frames.csv",
+                                                            "loops.csv", "config.yaml"});
   CHECK(json["status"] == "completed");
   CHECK(json["frames"] == nlohmann::json{{"total", 3},
                                          {"fed", 3},
@@ -133,7 +133,8 @@ TEST_CASE("frames.csv says of each frame what metrics.json says") {
   std::string line;
   std::getline(csv, line);
   CHECK(line ==
-        "index,timestamp_s,keyframe,state,lost,gain_red,gain_green,gain_blue,retries,found_at,loss,valid_fraction,"
+        "index,timestamp_s,keyframe,state,lost,gain_red,gain_green,gain_blue,retries,found_at,loss,valid_"
+        "fraction,"
         "explained,seen_through,moved,sigma_cm,sigma_deg,covariance,tracking_"
         "iterations,tracking_ms,"
         "mapping_iterations,mapping_ms,gaussians,uncertain_gaussians,device_gaussians,"

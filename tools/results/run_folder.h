@@ -17,9 +17,9 @@ namespace surefield {
 /// The results of a run, as `surefield run` left them in a folder.
 struct RunFolder {
   std::filesystem::path path;
-  std::string name;        ///< of the folder
-  nlohmann::json metrics;  ///< metrics.json, checked for its schema
-  Trajectory trajectory;   ///< one pose per entry of metrics["per_frame"]
+  std::string name;                  ///< of the folder
+  nlohmann::json metrics;            ///< metrics.json, checked for its schema
+  Trajectory trajectory;             ///< one pose per entry of metrics["per_frame"]
   std::optional<Trajectory> online;  ///< as the poses were when each frame came; none of an older run
   Trajectory keyframes;
   std::string configuration;  ///< config.yaml

@@ -1,5 +1,5 @@
-#include <algorithm>
 #include <fmt/format.h>
+#include <algorithm>
 
 #include <cmath>
 
@@ -96,7 +96,8 @@ IterationTotal mapping_total(const std::vector<FrameReport>& frames) {
 }
 
 int count_loops(const std::vector<Loop>& loops) {
-  return static_cast<int>(std::count_if(loops.begin(), loops.end(), [](const Loop& l) { return l.counts(); }));
+  return static_cast<int>(
+      std::count_if(loops.begin(), loops.end(), [](const Loop& l) { return l.counts(); }));
 }
 
 std::string run_summary(const RunRecord& record) {

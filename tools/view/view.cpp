@@ -12,8 +12,8 @@
 #include "tools/shared/command.h"
 #include "tools/shared/interrupt.h"
 #include "tools/shared/load_map.h"
-#include "tools/shared/up_option.h"
 #include "tools/shared/ui_scale.h"
+#include "tools/shared/up_option.h"
 
 namespace surefield {
 
