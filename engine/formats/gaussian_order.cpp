@@ -69,6 +69,7 @@ GaussianCloud select(const GaussianCloud& cloud, const std::vector<std::size_t>&
     selected.sh.insert(selected.sh.end(), sh, sh + stride);
     selected.uncertainty.push_back(cloud.uncertainty[i]);
     selected.sampling.push_back(cloud.sampling[i]);
+    selected.anchors.push_back(cloud.anchors[i]);
   }
   return selected;
 }

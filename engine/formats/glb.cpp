@@ -101,7 +101,8 @@ void write_glb(const std::filesystem::path& file, const GaussianCloud& cloud) {
   glb.write(file);
 }
 
-void write_glb(const std::filesystem::path& file, const TriangleMesh& mesh) {
+void write_glb(const std::filesystem::path& file, const TriangleMesh& mesh, const MeshTurn& turn) {
+  if (turn.axes == MeshAxes::ZUp) throw InputError(file, "cannot have z upwards: in glTF, y is up");
   if (!mesh.colours.empty() && mesh.colours.size() != mesh.vertices.size())
     throw UsageError("write_glb: the mesh has more or fewer colours than vertices");
   GlbFile glb;
@@ -121,6 +122,7 @@ void write_glb(const std::filesystem::path& file, const TriangleMesh& mesh) {
                           {"attributes", attributes},
                           {"indices", glb.add_indices(mesh.triangles)},
                           {"material", 0}});
+    if (turn.axes == MeshAxes::YUp) glb.turn_mesh(turn.world_to_file);
   }
   glb.write(file);
 }

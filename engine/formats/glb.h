@@ -15,7 +15,8 @@ namespace surefield {
 void write_glb(const std::filesystem::path& file, const GaussianCloud& cloud);
 
 /// Writes a triangle mesh as binary glTF 2.0, in the same axes. Where it has colours, they are shown as they
-/// are, without light. Otherwise as above.
-void write_glb(const std::filesystem::path& file, const TriangleMesh& mesh);
+/// are, without light. Where `turn` has y upwards, the node turns the mesh, and its extras say how. Otherwise
+/// as above. Throws InputError where z is up, which glTF does not have.
+void write_glb(const std::filesystem::path& file, const TriangleMesh& mesh, const MeshTurn& turn = {});
 
 }  // namespace surefield

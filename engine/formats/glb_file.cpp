@@ -107,6 +107,15 @@ void GlbFile::set_mesh(const std::string& name, nlohmann::json primitive) {
   json_["scenes"][0]["nodes"][0] = 0;
 }
 
+void GlbFile::turn_mesh(const Eigen::Matrix3d& world_to_file) {
+  const Eigen::Map<const Eigen::Array3f> signs(kTurnedAxes.data());
+  Eigen::Matrix4d matrix = Eigen::Matrix4d::Identity();
+  matrix.topLeftCorner<3, 3>() = world_to_file * signs.cast<double>().matrix().asDiagonal();
+  const Eigen::Matrix3d by_rows = world_to_file.transpose();  // Eigen stores columns, and so does glTF
+  json_["nodes"][0]["matrix"] = std::vector<double>(matrix.data(), matrix.data() + 16);
+  json_["nodes"][0]["extras"]["world_to_file"] = std::vector<double>(by_rows.data(), by_rows.data() + 9);
+}
+
 void GlbFile::set_material(nlohmann::json material) {
   json_["materials"][0] = std::move(material);
 }

@@ -28,6 +28,8 @@ class GlbFile {
   void use_extension(const std::string& name);
   /// The only mesh, shown by the only node. Call it once, or not at all for an empty scene.
   void set_mesh(const std::string& name, nlohmann::json primitive);
+  /// Turns the mesh, once it is set, from our axes into those of the scene, and says so in the node's extras.
+  void turn_mesh(const Eigen::Matrix3d& world_to_file);
   /// Of the mesh's primitive as its "material" 0.
   void set_material(nlohmann::json material);
 

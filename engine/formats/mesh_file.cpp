@@ -21,10 +21,12 @@ namespace {
 constexpr std::size_t kStlHeader = 80, kStlTriangle = 50;  // bytes
 
 /// Vertices and normals are counted from 1, and a corner names both.
-void write_obj(const std::filesystem::path& file, const TriangleMesh& mesh) {
+void write_obj(const std::filesystem::path& file, const TriangleMesh& world_mesh, const MeshTurn& turn) {
+  const TriangleMesh mesh = turned(world_mesh, turn);
   const std::vector<Eigen::Vector3f> normals = vertex_normals(mesh);
   write_file(file, [&](std::ostream& stream) {
     stream << "# metres; colours, where there are any, stand behind the positions\n";
+    if (turn.axes != MeshAxes::World) stream << "# " << kTurnNote << "\n# " << turn_comment(turn) << "\n";
     for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
       stream << fmt::format("v {} {} {}", mesh.vertices[i].x(), mesh.vertices[i].y(), mesh.vertices[i].z());
       if (!mesh.colours.empty())
@@ -39,11 +41,13 @@ void write_obj(const std::filesystem::path& file, const TriangleMesh& mesh) {
   });
 }
 
-void write_stl(const std::filesystem::path& file, const TriangleMesh& mesh) {
+void write_stl(const std::filesystem::path& file, const TriangleMesh& world_mesh, const MeshTurn& turn) {
+  const TriangleMesh mesh = turned(world_mesh, turn);
   if (mesh.triangles.size() > std::numeric_limits<uint32_t>::max())
     throw UsageError("write_mesh_file: more triangles than an STL file can count");
   write_file(file, [&](std::ostream& stream) {
     std::string header = "triangles, metres";
+    if (turn.axes != MeshAxes::World) header += turn.axes == MeshAxes::YUp ? ", y up" : ", z up";
     header.resize(kStlHeader);
     const auto count = static_cast<uint32_t>(mesh.triangles.size());
     header.append(reinterpret_cast<const char*>(&count), sizeof(count));
@@ -70,13 +74,14 @@ void require_mesh_ending(const std::filesystem::path& file) {
   throw InputError(file, "has no ending of a mesh format; name it .ply, .obj, .stl or .glb");
 }
 
-void write_mesh_file(const std::filesystem::path& file, const TriangleMesh& mesh) {
+void write_mesh_file(const std::filesystem::path& file, const TriangleMesh& mesh, MeshAxes axes) {
   require_mesh_ending(file);
   check_mesh(mesh);
-  if (file.extension() == ".obj") return write_obj(file, mesh);
-  if (file.extension() == ".stl") return write_stl(file, mesh);
-  if (file.extension() == ".glb") return write_glb(file, mesh);
-  write_mesh(file, mesh);
+  const MeshTurn turn = turn_of(mesh, axes);
+  if (file.extension() == ".obj") return write_obj(file, mesh, turn);
+  if (file.extension() == ".stl") return write_stl(file, mesh, turn);
+  if (file.extension() == ".glb") return write_glb(file, mesh, turn);
+  write_mesh(file, mesh, axes);
 }
 
 }  // namespace surefield

@@ -59,6 +59,7 @@ class HeaderParser {
     if (keyword == "format") take_format(words);
     if (keyword == "element") take_element(words);
     if (keyword == "property") take_property(words);
+    if (keyword == "comment") take_comment(words);
   }
 
   void finish() const {
@@ -118,6 +119,13 @@ class HeaderParser {
     }
     property.type = *type;
     header_.elements.back().properties.push_back(std::move(property));
+  }
+
+  void take_comment(std::istringstream& words) {
+    std::string text;
+    std::getline(words >> std::ws, text);
+    if (text.ends_with('\r')) text.pop_back();
+    header_.comments.push_back(std::move(text));
   }
 
   [[noreturn]] void fail(const std::string& problem) const { throw InputError(file_, line_, problem); }

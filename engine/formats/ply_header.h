@@ -34,9 +34,10 @@ struct PlyElement {
 /// The header of a PLY file whose first element is `vertex`, with scalar properties only; in compressed
 /// clouds `chunk` stands before it.
 struct PlyHeader {
-  bool is_ascii = false;             ///< else binary little endian
-  std::vector<PlyElement> elements;  ///< in the order of their records; at least one
-  std::size_t data_offset = 0;       ///< of the first record, bytes from the start of the file
+  bool is_ascii = false;              ///< else binary little endian
+  std::vector<PlyElement> elements;   ///< in the order of their records; at least one
+  std::vector<std::string> comments;  ///< what stands behind the word
+  std::size_t data_offset = 0;        ///< of the first record, bytes from the start of the file
 
   bool is_compressed() const { return elements.front().name == "chunk"; }
   const PlyElement& vertices() const { return elements[is_compressed() ? 1 : 0]; }

@@ -103,6 +103,7 @@ PlyCloud read_ply(const std::filesystem::path& file) {
     };
     result.cloud.uncertainty.push_back(extra(layout.uncertainty));
     result.cloud.sampling.push_back(extra(layout.sampling));
+    result.cloud.anchors.push_back(0);
   }
   const LeftOutGaussians left_out = keep_usable(result.cloud);
   result.dropped = left_out.broken;

@@ -72,6 +72,19 @@ void read_faces(const Path& file, const PlyElement& element, PlyRecordReader& re
   }
 }
 
+/// Turns a mesh back that its file has turned upright.
+void turn_back(const Path& file, const PlyHeader& header, TriangleMesh& mesh) {
+  for (const std::string& comment : header.comments) {
+    const auto turn = read_turn_comment(file, comment);
+    if (!turn) continue;
+    const Eigen::Matrix3d file_to_world = turn->world_to_file.transpose();
+    for (Eigen::Vector3f& vertex : mesh.vertices)
+      vertex = (file_to_world * vertex.cast<double>()).cast<float>();
+    mesh.up = turn->up();
+    return;
+  }
+}
+
 /// Positions, normals and colours as stored.
 std::string vertex_bytes(const TriangleMesh& mesh) {
   const std::vector<Eigen::Vector3f> normals = vertex_normals(mesh);
@@ -139,6 +152,7 @@ TriangleMesh read_mesh(const Path& file) {
     const PlyElement& element = header.elements[e];
     if (element.name == "face") {
       read_faces(file, element, reader, mesh);
+      turn_back(file, header, mesh);
       return mesh;
     }
     for (std::size_t i = 0; i < element.count; ++i) reader.next(element, record);
@@ -146,10 +160,29 @@ TriangleMesh read_mesh(const Path& file) {
   throw InputError(file, "has no element face; is it a triangle mesh?");
 }
 
-void write_mesh(const Path& file, const TriangleMesh& mesh) {
-  check_mesh(mesh);
+MeshTurn turn_of(const TriangleMesh& mesh, MeshAxes axes) {
+  if (axes == MeshAxes::World) return {};
+  if (!mesh.up) throw UsageError("a mesh that does not know where up is cannot be turned upright");
+  return {axes, upright_turn(*mesh.up, axes)};
+}
+
+TriangleMesh turned(const TriangleMesh& mesh, const MeshTurn& turn) {
+  TriangleMesh result = mesh;
+  if (turn.axes == MeshAxes::World) return result;
+  for (Eigen::Vector3f& vertex : result.vertices)
+    vertex = (turn.world_to_file * vertex.cast<double>()).cast<float>();
+  return result;
+}
+
+void write_mesh(const Path& file, const TriangleMesh& world_mesh, MeshAxes axes) {
+  check_mesh(world_mesh);
+  const MeshTurn turn = turn_of(world_mesh, axes);
+  const TriangleMesh mesh = turned(world_mesh, turn);
   write_file(file, [&](std::ostream& stream) {
-    stream << "ply\nformat binary_little_endian 1.0\nelement vertex " << mesh.vertices.size()
+    stream << "ply\nformat binary_little_endian 1.0\n";
+    if (axes != MeshAxes::World)
+      stream << "comment " << kTurnNote << "\ncomment " << turn_comment(turn) << "\n";
+    stream << "element vertex " << mesh.vertices.size()
            << "\nproperty float x\nproperty float y\nproperty float z\nproperty float nx\nproperty float "
               "ny\nproperty "
               "float nz\n";

@@ -1,5 +1,6 @@
 #include "engine/places/rigid_match.h"
 
+#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
@@ -104,6 +105,17 @@ bool is_rigid(const Pairs& pairs, const std::vector<Eigen::Index>& three) {
   return true;
 }
 
+/// See RigidMatch::spread.
+double spread_of(const Pairs& pairs, const std::vector<Eigen::Index>& chosen) {
+  Eigen::Matrix2Xd places(2, static_cast<Eigen::Index>(chosen.size()));
+  for (Eigen::Index i = 0; i < places.cols(); ++i)
+    places.col(i) = pairs.to.col(chosen[static_cast<std::size_t>(i)]).hnormalized();
+  places.colwise() -= places.rowwise().mean().eval();
+  const Eigen::Matrix2d covariance = places * places.transpose() / static_cast<double>(places.cols());
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> solver(covariance, Eigen::EigenvaluesOnly);
+  return std::sqrt(std::max(solver.eigenvalues()[0], 0.0));
+}
+
 }  // namespace
 
 PlacedFeatures place_features(const Frame& frame, const Intrinsics& intrinsics) {
@@ -143,6 +155,7 @@ std::optional<RigidMatch> match_rigidly(const PlacedFeatures& from, const Placed
   }
   match.inliers = static_cast<int>(best.size());
   if (match.inliers < std::max(fewest, 3)) return std::nullopt;
+  match.spread = spread_of(pairs, best);
   return match;
 }
 

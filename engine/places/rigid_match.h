@@ -25,6 +25,9 @@ struct RigidMatch {
   Pose from_to = Pose::Identity();  ///< maps points of the first to the frame of the second
   int matches = 0;                  ///< features that look alike
   int inliers = 0;                  ///< of those, the ones that the motion lays on each other
+  /// How far these spread over the second image in the direction in which they do least: a standard deviation,
+  /// in units of the distance at which images are one metre away from the camera (x / z, y / z).
+  double spread = 0;
 };
 
 /// Finds the motion between two frames without knowing anything of it: features that are each other's nearest

@@ -2,10 +2,9 @@
 
 namespace surefield {
 
-Eigen::VectorXf VladDescriptor::describe(const cv::Mat& rgb) {
-  const LocalFeatures& words = vocabulary_.words;
+Eigen::VectorXf vlad_of(const LocalFeatures& features, const Vocabulary& vocabulary) {
+  const LocalFeatures& words = vocabulary.words;
   LocalFeatures sums = LocalFeatures::Zero(words.rows(), kFeatureSize);
-  const LocalFeatures features = root_sift(rgb);
   for (Eigen::Index i = 0; i < features.rows(); ++i) {
     const Eigen::Index word = nearest_word(words, features.row(i)).word;
     sums.row(word) += features.row(i) - words.row(word);
@@ -15,6 +14,10 @@ Eigen::VectorXf VladDescriptor::describe(const cv::Mat& rgb) {
   Eigen::VectorXf descriptor = Eigen::Map<const Eigen::VectorXf>(sums.data(), sums.size());
   descriptor.normalize();
   return descriptor;
+}
+
+Eigen::VectorXf VladDescriptor::describe(const cv::Mat& rgb) {
+  return vlad_of(root_sift(rgb), vocabulary_);
 }
 
 }  // namespace surefield

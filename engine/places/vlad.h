@@ -5,6 +5,9 @@
 
 namespace surefield {
 
+/// VLAD of features that have been found; see VladDescriptor.
+Eigen::VectorXf vlad_of(const LocalFeatures& features, const Vocabulary& vocabulary);
+
 /// VLAD (vector of locally aggregated descriptors) over RootSIFT: for each word, the sum of what the features
 /// nearest to it differ from it by, brought to unit length; all of them one after the other, brought to unit
 /// length. Needs no network and no download.

@@ -53,6 +53,7 @@ nlohmann::ordered_json frame_json(const FrameReport& frame) {
           {"gain_green", rounded(frame.gains[1])},
           {"gain_blue", rounded(frame.gains[2])},
           {"retries", frame.retries},
+          {"found_at", frame.found_at},
           {"loss", frame.tracking_loss},
           {"valid_fraction", frame.valid_fraction},
           {"explained", rounded(frame.explained)},

@@ -20,7 +20,7 @@ namespace surefield {
 
 namespace {
 
-constexpr std::array kResultNames = {"trajectory.txt", "keyframes.txt", "frames.csv",
+constexpr std::array kResultNames = {"trajectory.txt", "trajectory_online.txt", "keyframes.txt", "frames.csv", "loops.csv",
                                      "metrics.json",   "config.yaml",   "log.txt"};
 constexpr const char* kPartial = "partial";
 

@@ -4,6 +4,7 @@
 #include "engine/io/files.h"
 #include "engine/io/trajectory_file.h"
 #include "engine/session/frame_table.h"
+#include "engine/session/loop_table.h"
 #include "engine/types/gaussian_cloud.h"
 
 namespace surefield {
@@ -17,6 +18,13 @@ void save_map(ResultsFolder& results, const Slam& slam, const std::string& forma
   results.save("map." + format, [&](const auto& file) { write_map(file, slam.map()); });
 }
 
+std::vector<int> keyframe_indices(const Slam& slam) {
+  std::vector<int> indices;
+  for (const FrameReport& report : slam.reports())
+    if (report.keyframe) indices.push_back(report.index);
+  return indices;
+}
+
 }  // namespace
 
 void save_run(ResultsFolder& results, const Slam& slam, const FrameSource& source,
@@ -27,6 +35,10 @@ void save_run(ResultsFolder& results, const Slam& slam, const FrameSource& sourc
   };
   save_trajectory("trajectory.txt", slam.trajectory());
   save_trajectory("keyframes.txt", slam.keyframes());
+  save_trajectory("trajectory_online.txt", slam.online_trajectory());
+  results.save("loops.csv", [&](const auto& file) {
+    write_file(file, [&](std::ostream& stream) { stream << loops_csv(slam.loops(), keyframe_indices(slam)); });
+  });
   save_map(results, slam, map_format);
   results.save("frames.csv", [&](const auto& file) {
     write_file(file, [&](std::ostream& stream) { stream << frames_csv(slam.reports()); });

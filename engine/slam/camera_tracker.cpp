@@ -24,6 +24,15 @@ constexpr TrackingFit kFirstFit{.loss = 0, .share = 0.5, .explained = 0.5, .seen
 
 constexpr int kFewestInliers = 15;  // features that a pose is told by
 constexpr int kMatched = 10;        // keyframes that a frame's features are compared with, the newest ones
+// Of all keyframes, those that look most like a frame that is lost, and from how many of them it is tracked.
+constexpr int kPlaces = 10;
+constexpr std::size_t kTriedPlaces = 3;
+
+TrackingSettings made_patient(TrackingSettings tracking) {
+  tracking.adam.iterations *= 2;
+  tracking.gauss_newton.renders *= 2;
+  return tracking;
+}
 
 bool is_certain(const PoseCovariance& covariance) {
   return position_sigma(covariance) < kPoorPosition && rotation_sigma(covariance) < kPoorRotation;
@@ -61,25 +70,46 @@ std::optional<PredictionError> CameraTracker::last_error() const {
   return PredictionError{off.translation().norm(), Eigen::AngleAxisd(off.rotation()).angle()};
 }
 
+/// Aligns a frame from `start`, in the world of the newest keyframe.
+TrackingResult CameraTracker::align_to_newest(FrameHandle image, const Pose& start,
+                                              const TrackingSettings& tracking) const {
+  if (drift_.none()) return engine_.track(image, {intrinsics_, start}, tracking, keyframes_.references());
+  std::vector<TrackingReference> references = keyframes_.references();
+  for (std::size_t i = 0; i < references.size(); ++i) {
+    Pose& pose = references[i].camera.world_to_camera;
+    pose = drift_.seen_from_newest(pose, keyframes_.newest() - keyframes_.reference_keyframes()[i]);
+  }
+  const auto frames = static_cast<double>(history_.next_after_keyframe());
+  const Camera in_newest{intrinsics_, drift_.drifted(start, -frames)};
+  TrackingResult result = engine_.track(image, in_newest, tracking, references);
+  result.world_to_camera = drift_.drifted(result.world_to_camera, frames);
+  return result;
+}
+
 /// Aligns a frame from `start`. What it leaves open is as predicted: without that, the noise of the images
 /// holds the camera where it was.
 TrackingResult CameraTracker::align(FrameHandle image, const Pose& start,
                                     const TrackingSettings& tracking) const {
-  TrackingResult result = engine_.track(image, {intrinsics_, start}, tracking, keyframes_.references());
+  TrackingResult result = align_to_newest(image, start, tracking);
   if (last_motion() && !is_certain(covariance_of(result.evidence)))
     result.world_to_camera = fuse(predict(), usual_fit().error, result.world_to_camera, result.evidence);
   return result;
 }
 
 void CameraTracker::track(FrameHandle image, FrameFeatures& features, const Pose& start,
-                          FrameReport& report) const {
+                          const Approach& approach, FrameReport& report) const {
   TrackingSettings tracking = settings_.tracking;
   if (history_.size() == 1)
     tracking.adam.iterations = std::max(tracking.adam.iterations, tracking.adam.first_iterations);
   TrackingResult result = align(image, start, tracking);
   report.tracking_iterations = result.iterations;
   report.tracking_ms = result.milliseconds;
-  if (state_of(result) != TrackingState::Good) result = retry(image, features, tracking, result, report);
+  if (state_of(result) != TrackingState::Good) {
+    const TrackingSettings patient = made_patient(tracking);
+    result = retry(image, features, patient, result, report);
+    if (state_of(result) == TrackingState::Lost)
+      result = find_again(image, features, patient, approach, result, report);
+  }
   report.state = state_of(result);
   report.world_to_camera =
       report.lost() ? history_.world_to_camera(history_.size() - 1) : result.world_to_camera;
@@ -94,20 +124,49 @@ void CameraTracker::track(FrameHandle image, FrameFeatures& features, const Pose
 TrackingResult CameraTracker::retry(FrameHandle image, FrameFeatures& features,
                                     const TrackingSettings& tracking, TrackingResult best,
                                     FrameReport& report) const {
-  TrackingSettings patient = tracking;
-  patient.adam.iterations *= 2;
-  patient.gauss_newton.renders *= 2;
   std::vector<Pose> starts;
   if (const auto pose = pose_by_features(features)) starts.push_back(*pose);
   starts.push_back(history_.world_to_camera(history_.size() - 1));
   starts.push_back(keyframes_.world_to_camera(keyframes_.newest()));
   for (const Pose& start : starts) {
     if (state_of(best) == TrackingState::Good) break;
-    const TrackingResult other = align(image, start, patient);
+    const TrackingResult other = align(image, start, tracking);
     ++report.retries;
     report.tracking_iterations += other.iterations;
     report.tracking_ms += other.milliseconds;
     if (is_better(other, best)) best = other;
+  }
+  return best;
+}
+
+/// In the whole map: at the keyframes that look most like the frame, of which features tell its pose.
+TrackingResult CameraTracker::find_again(FrameHandle image, FrameFeatures& features,
+                                         const TrackingSettings& tracking, const Approach& approach,
+                                         TrackingResult best, FrameReport& report) const {
+  struct Place {
+    int keyframe, inliers;
+    Pose pose;
+  };
+  std::vector<Place> places;
+  const PlacedFeatures& own = features.get();
+  for (int k : best_apart(keyframes_.places().similarities(own.descriptors), kPlaces, 0, 0)) {
+    const auto match =
+        match_rigidly(keyframes_[k].features, own, noise_of(settings_.sensor), kFewestInliers);
+    if (match) places.push_back({k, match->inliers, match->from_to * keyframes_.world_to_camera(k)});
+  }
+  std::stable_sort(places.begin(), places.end(),
+                   [](const Place& a, const Place& b) { return a.inliers > b.inliers; });
+  if (places.size() > kTriedPlaces) places.resize(kTriedPlaces);
+  for (const Place& place : places) {
+    approach(place.pose);
+    const TrackingResult other =
+        engine_.track(image, {intrinsics_, place.pose}, tracking, keyframes_.references_at(place.keyframe));
+    ++report.retries;
+    report.tracking_iterations += other.iterations;
+    report.tracking_ms += other.milliseconds;
+    if (state_of(other) != TrackingState::Good) continue;
+    report.found_at = place.keyframe;
+    return other;
   }
   return best;
 }
@@ -180,6 +239,13 @@ void CameraTracker::accept(const FrameReport& report) {
   recent_.push_back({report.tracking_loss, report.explained / report.valid_fraction, report.explained,
                      report.seen_through, last_error().value_or(usual_fit().error)});
   if (recent_.size() > kRecent) recent_.pop_front();
+}
+
+void CameraTracker::begin_keyframe() {
+  valid_after_keyframe_ = 0;
+  if (!drift_.none())
+    drift_.begin_keyframe(keyframes_.world_to_camera(keyframes_.newest()),
+                          static_cast<double>(history_.next_after_keyframe()) - 1);
 }
 
 }  // namespace surefield

@@ -1,12 +1,14 @@
 #pragma once
 
 #include <deque>
+#include <functional>
 
 #include "engine/slam/depth_timing.h"
 #include "engine/slam/frame_features.h"
 #include "engine/slam/frame_history.h"
 #include "engine/slam/keyframe_graph.h"
 #include "engine/slam/pose_covariance.h"
+#include "engine/slam/simulated_drift.h"
 
 namespace surefield {
 
@@ -30,7 +32,8 @@ class CameraTracker {
         settings_(settings),
         intrinsics_(intrinsics),
         keyframes_(keyframes),
-        history_(history) {}
+        history_(history),
+        drift_(settings.drift) {}
 
   /// Where the next frame is thought to be, world to camera. Needs a frame before it.
   Pose predict() const;
@@ -38,18 +41,21 @@ class CameraTracker {
   std::optional<CameraMotion> last_motion() const;
   /// Says what last_motion() is as long as there is only one frame.
   void expect(const CameraMotion& motion) { expected_ = motion; }
-  /// Tracks a frame from `start`, and where that fails from other poses, one of them told by its features;
-  /// fills the report's pose and what it says of tracking. The pose of a lost frame is `start`. Changes
-  /// nothing else.
-  void track(FrameHandle image, FrameFeatures& features, const Pose& start, FrameReport& report) const;
+  /// Has on the device what a frame sees from a pose.
+  using Approach = std::function<void(const Pose&)>;
+  /// Tracks a frame from `start`, and where that fails from other poses, told by its features: near the last
+  /// keyframes, then in the whole map, of which `approach` is asked for the part. Fills the report's pose and
+  /// what it says of tracking. The pose of a lost frame is the last one that was known. Changes nothing else.
+  void track(FrameHandle image, FrameFeatures& features, const Pose& start, const Approach& approach,
+             FrameReport& report) const;
   /// Whether the map explains so much less of a frame's depth than of that of the first frame tracked after
   /// the last keyframe that there should be another.
   bool sees_unmapped(const FrameReport& report) const;
 
   /// The frame that was tracked counts.
   void accept(const FrameReport& report);
-  /// There is a new keyframe.
-  void begin_keyframe() { valid_after_keyframe_ = 0; }
+  /// There is a new keyframe, the frame that was added last; the history does not know of it yet.
+  void begin_keyframe();
 
  private:
   TrackingFit usual_fit() const;
@@ -57,9 +63,13 @@ class CameraTracker {
   bool is_near_last(const Pose& world_to_camera) const;
   bool is_better(const TrackingResult& result, const TrackingResult& other) const;
   std::optional<PredictionError> last_error() const;
+  TrackingResult align_to_newest(FrameHandle image, const Pose& start,
+                                 const TrackingSettings& tracking) const;
   TrackingResult align(FrameHandle image, const Pose& start, const TrackingSettings& tracking) const;
   TrackingResult retry(FrameHandle image, FrameFeatures& features, const TrackingSettings& tracking,
                        TrackingResult best, FrameReport& report) const;
+  TrackingResult find_again(FrameHandle image, FrameFeatures& features, const TrackingSettings& tracking,
+                            const Approach& approach, TrackingResult best, FrameReport& report) const;
   std::optional<Pose> pose_by_features(FrameFeatures& features) const;
 
   SplatEngine& engine_;
@@ -67,6 +77,7 @@ class CameraTracker {
   const Intrinsics intrinsics_;
   const KeyframeGraph& keyframes_;
   const FrameHistory& history_;
+  SimulatedDrift drift_;
   std::deque<TrackingFit> recent_;        ///< of the last good frames
   std::optional<CameraMotion> expected_;  ///< to the second frame, once it has been tracked for that alone
   double valid_after_keyframe_ = 0;       ///< valid_fraction of the first frame tracked after it; 0: none yet

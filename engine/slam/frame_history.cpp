@@ -5,7 +5,9 @@
 namespace surefield {
 
 void FrameHistory::add(const FrameReport& report) {
-  FrameRecord record{report, keyframes_.newest(), report.world_to_camera};
+  FrameRecord record{.report = report,
+                     .keyframe = report.found_at < 0 ? keyframes_.anchor() : report.found_at,
+                     .keyframe_to_frame = report.world_to_camera};
   if (!keyframes_.empty())
     record.keyframe_to_frame = report.world_to_camera * keyframes_.world_to_camera(record.keyframe).inverse();
   records_.push_back(record);
@@ -14,6 +16,7 @@ void FrameHistory::add(const FrameReport& report) {
 void FrameHistory::make_last_keyframe() {
   FrameRecord& last = records_.back();
   last.report.keyframe = true;
+  last.tracked_after = last.keyframe;
   last.keyframe = keyframes_.newest();
   last.keyframe_to_frame = Pose::Identity();
   last_keyframe_ = records_.size() - 1;

@@ -13,7 +13,8 @@ namespace surefield {
 /// follows that keyframe's refinement.
 struct FrameRecord {
   FrameReport report;
-  int keyframe = -1;  ///< that it is, or that it was tracked after; -1: the world
+  int keyframe = -1;       ///< that it is, or that it was tracked after; -1: the world
+  int tracked_after = -1;  ///< of a keyframe: the one before; -1: none
   Pose keyframe_to_frame = Pose::Identity();
 };
 
@@ -22,7 +23,7 @@ class FrameHistory {
  public:
   explicit FrameHistory(const KeyframeGraph& keyframes) : keyframes_(keyframes) {}
 
-  /// Adds a frame that was tracked after the newest keyframe; `report` has its pose.
+  /// Adds a frame that was tracked after keyframes.anchor(), or found at another; `report` has its pose.
   void add(const FrameReport& report);
   /// Takes the frame that was added last back out.
   void drop_last() { records_.pop_back(); }
@@ -33,6 +34,8 @@ class FrameHistory {
   std::size_t size() const { return records_.size(); }
   FrameReport& last_report() { return records_.back().report; }
   const FrameReport& last_report() const { return records_.back().report; }
+  /// The keyframe after which the last frame, which has become one, was tracked; -1: none.
+  int last_tracked_after() const { return records_.back().tracked_after; }
   const FrameReport& report(std::size_t i) const { return records_[i].report; }
   /// Frames since the last one that became a keyframe, the next one included.
   std::size_t next_after_keyframe() const { return records_.size() - last_keyframe_; }

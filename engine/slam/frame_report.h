@@ -22,6 +22,9 @@ struct FrameReport {
   bool keyframe = false;
   TrackingState state = TrackingState::Good;
   int retries = 0;  ///< other starting poses that were tried
+  /// The keyframe, by its position among them, at which the camera was found again after it had been lost or
+  /// carried elsewhere; -1: none.
+  int found_at = -1;
   /// Times these, one a channel, its colours are those of the map; 1 where the light is steady
   /// (docs/method.md, "Light"). Of a run that is finished, the map with the exposure that Slam::map() gives
   /// it.

@@ -5,7 +5,17 @@
 
 namespace surefield {
 
+KeyframeGraph::KeyframeGraph(const KeyframeSettings& settings, std::unique_ptr<ImageDescriptor> descriptor)
+    : covisibility_(settings, std::move(descriptor)),
+      places_(settings.vocabulary.empty() ? built_in_vocabulary() : read_vocabulary(settings.vocabulary)) {}
+
+void KeyframeGraph::replace_first(Keyframe keyframe) {
+  places_.replace_last(keyframe.features.descriptors);
+  keyframes_.front() = std::move(keyframe);
+}
+
 void KeyframeGraph::add(Keyframe keyframe, Eigen::VectorXf descriptor) {
+  places_.add(keyframe.features.descriptors);
   keyframes_.push_back(std::move(keyframe));
   covisibility_.add(std::move(descriptor));
 }
@@ -29,7 +39,23 @@ std::vector<int> KeyframeGraph::take_moved() {
 void KeyframeGraph::set_window(std::vector<int> members, int most_references) {
   references_.assign(members.rbegin(), members.rend());
   references_.resize(std::min<std::size_t>(members.size(), std::max(most_references, 0)));
+  anchor_ = members.back();
   window_ = std::move(members);
+}
+
+void KeyframeGraph::return_to(int k, int most_references) {
+  std::vector<int> members;
+  for (int near = std::max(0, k - 1); near <= std::min(k + 2, newest()); ++near)
+    if (near != k) members.push_back(near);
+  members.push_back(k);
+  set_window(std::move(members), most_references);
+}
+
+std::vector<TrackingReference> KeyframeGraph::references_at(int k) const {
+  std::vector<TrackingReference> references;
+  for (int near : {k, k - 1, k + 1, k + 2})
+    if (near >= 0 && near <= newest()) references.push_back({keyframes_[near].tracked, keyframes_[near].camera});
+  return references;
 }
 
 std::vector<TrackingReference> KeyframeGraph::references() const {

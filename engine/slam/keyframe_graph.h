@@ -4,6 +4,7 @@
 #include <utility>
 #include <vector>
 
+#include "engine/places/place_memory.h"
 #include "engine/slam/covisibility.h"
 #include "engine/slam/keyframes.h"
 #include "engine/slam/light.h"
@@ -18,8 +19,7 @@ class KeyframeGraph {
  public:
   /// `descriptor` says what images look like, instead of the one that the settings name, unless null. Throws
   /// InputError where a file that the settings name cannot be used.
-  KeyframeGraph(const KeyframeSettings& settings, std::unique_ptr<ImageDescriptor> descriptor)
-      : covisibility_(settings, std::move(descriptor)) {}
+  KeyframeGraph(const KeyframeSettings& settings, std::unique_ptr<ImageDescriptor> descriptor);
 
   bool empty() const { return keyframes_.empty(); }
   int newest() const { return static_cast<int>(keyframes_.size()) - 1; }
@@ -33,7 +33,7 @@ class KeyframeGraph {
   /// Adds a keyframe, with its descriptor.
   void add(Keyframe keyframe, Eigen::VectorXf descriptor);
   /// Puts another in the place of the first and only one, with the same descriptor.
-  void replace_first(Keyframe keyframe) { keyframes_.front() = std::move(keyframe); }
+  void replace_first(Keyframe keyframe);
   /// Times these its colours are the map's, for mapping and for telling the light of frames; the image that
   /// frames are aligned to stays as it is.
   void set_light(int k, const Eigen::Vector3f& gains) { keyframes_[k].gains = keyframes_[k].light = gains; }
@@ -54,23 +54,38 @@ class KeyframeGraph {
     return covisibility_.window(keyframes_, near);
   }
 
+  /// What the keyframes look like, all of them.
+  const PlaceMemory& places() const { return places_; }
+
   /// Notes that these were optimised together, oldest first: frames are aligned to the newest of them, at
   /// most so many, beside the map.
   void set_window(std::vector<int> members, int most_references);
   /// Those that were optimised together last, oldest first.
   const std::vector<int>& window() const { return window_; }
+  /// The keyframe that frames are tracked after: the newest of the last window, or where a lost camera was
+  /// found again. -1 where there is none.
+  int anchor() const { return anchor_; }
+  /// From here on frames are aligned to this keyframe and those beside it, at most so many: a lost camera was
+  /// found there.
+  void return_to(int k, int most_references);
   /// The keyframes whose images a frame is aligned to beside the map, the newest first.
   std::vector<TrackingReference> references() const;
+  /// Those of a frame that is taken at keyframe `k`.
+  std::vector<TrackingReference> references_at(int k) const;
+  /// Which those are.
+  const std::vector<int>& reference_keyframes() const { return references_; }
   /// The keyframes by which the exposure of a frame is told: those of the last window. Good until the next
   /// change.
   std::vector<LitView> lit_views() const;
 
  private:
   Covisibility covisibility_;
+  PlaceMemory places_;
   std::vector<Keyframe> keyframes_;
   std::vector<int> moved_;
   std::vector<int> window_;
   std::vector<int> references_;
+  int anchor_ = -1;
 };
 
 }  // namespace surefield

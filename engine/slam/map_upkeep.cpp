@@ -8,6 +8,12 @@
 
 namespace surefield {
 
+namespace {
+
+constexpr int kLoopSteps = 100;  // over both visits of a place, once a loop is closed
+
+}  // namespace
+
 void MapUpkeep::begin(const Frame& frame) {
   const Camera& camera = keyframes_[keyframes_.newest()].camera;
   extent_ = scene_extent(frame);
@@ -23,7 +29,8 @@ void MapUpkeep::spawn(const Frame& frame) {
   if (settings_.keyframes.exposure)
     gains = fit_gains(frame, rendered).value_or(keyframes_[std::max(0, newest - 1)].gains);
   keyframes_.set_gains(newest, gains);
-  const GaussianCloud births = spawn_gaussians(frame, camera, &rendered, settings_.spawn, gains);
+  GaussianCloud births = spawn_gaussians(frame, camera, &rendered, settings_.spawn, gains);
+  births.anchors.assign(births.size(), static_cast<uint32_t>(newest));
   region_.settle(keyframes_.all(), keyframes_.similar(), static_cast<uint32_t>(births.size()));
   engine_.insert(births);
 }
@@ -38,6 +45,17 @@ MappingPlan MapUpkeep::plan(const KeyframeWindow& window) {
     std::copy_if(window.members.begin(), window.members.end(), std::back_inserter(plan.refined),
                  [&](int member) { return member != window.fixed; });
   return plan;
+}
+
+std::vector<int> MapUpkeep::plan_both(int back_at) {
+  std::vector<int> members = keyframes_.window();
+  for (int k = std::max(0, back_at - 2); k <= std::min(back_at + 2, keyframes_.newest()); ++k)
+    if (std::find(members.begin(), members.end(), k) == members.end()) members.push_back(k);
+  region_.settle(keyframes_.all(), members, 0);
+  std::vector<int> order;
+  for (int step = 0; step < kLoopSteps; ++step)
+    order.push_back(members[static_cast<std::size_t>(step) % members.size()]);
+  return order;
 }
 
 void MapUpkeep::optimise(const std::vector<int>& order, const std::vector<int>& refined,

@@ -48,6 +48,10 @@ class MapUpkeep {
   /// Draws the order of a mapping call over a window.
   MappingPlan plan(const KeyframeWindow& window);
 
+  /// Keyframes for steps after a loop was closed: the last window, and those around the one that the camera
+  /// has come back to, in turns. What they see is on the device then.
+  std::vector<int> plan_both(int back_at);
+
   /// Optimises the map over these keyframes, one step each, and the poses of those of `refined`.
   void optimise(const std::vector<int>& order, const std::vector<int>& refined, FrameReport& report);
   /// Takes the opacity from Gaussians that are uncertain over these keyframes.

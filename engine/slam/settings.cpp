@@ -140,6 +140,8 @@ void SlamSettings::bind(ConfigSchema& schema) {
   schema.add("lost.loss_jump", &lost.loss_jump, kFactor);
   schema.add("lost.minimum_valid", &lost.minimum_valid, kFraction);
   schema.add("light.correct_above", &light.correct_above, kFactor);
+  schema.add("drift.rotation", &drift.rotation, Range{0, 10});
+  schema.add("drift.translation", &drift.translation, Range{0, 1});
   schema.document(built_in_configs().at("base.yaml"));
   for (const auto& [old, key] : kRenamed) schema.renamed(old, key);
   schema.renamed("mapping.rate_mean", "mapping.rate_centre", kPixelUnit);

@@ -49,6 +49,12 @@ struct LightSettings {
   double correct_above = 0.15;
 };
 
+/// By how much tracking is made to drift a frame, for tests of loops: `drift` in configs/base.yaml.
+struct DriftSettings {
+  double rotation = 0;
+  double translation = 0;
+};
+
 /// Everything that shapes a run: one field per key of configs/base.yaml, which says what each means, in which
 /// unit, and which values are permitted.
 struct SlamSettings {
@@ -66,6 +72,7 @@ struct SlamSettings {
   SpawnSettings spawn;
   LossDetectionSettings lost;
   LightSettings light;
+  DriftSettings drift;
 
   /// Binds every key to its field, with its help from configs/base.yaml; the settings must outlive the
   /// schema.

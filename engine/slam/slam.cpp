@@ -97,6 +97,19 @@ Trajectory Slam::trajectory() const {
   return implementation_->history.trajectory();
 }
 
+Trajectory Slam::online_trajectory() const {
+  const std::lock_guard lock(implementation_->state);
+  Trajectory trajectory;
+  for (const FrameReport& report : implementation_->history.reports())
+    trajectory.push_back({report.timestamp, report.world_to_camera.inverse(), report.lost()});
+  return trajectory;
+}
+
+std::vector<Loop> Slam::loops() const {
+  const std::lock_guard lock(implementation_->state);
+  return implementation_->loops.loops();
+}
+
 Trajectory Slam::keyframes() const {
   const std::lock_guard lock(implementation_->state);
   Trajectory trajectory;

@@ -7,6 +7,7 @@
 
 #include "engine/places/image_descriptor.h"
 #include "engine/slam/frame_report.h"
+#include "engine/slam/loop.h"
 #include "engine/slam/settings.h"
 #include "engine/types/gaussian_cloud.h"
 #include "engine/types/render_images.h"
@@ -82,10 +83,15 @@ class Slam {
   /// Poses of all frames so far, camera to world, in the first camera's frame. Keyframes have their refined
   /// poses, and the frames between follow the keyframe that they were tracked after.
   Trajectory trajectory() const;
+  /// The same as they were when each frame came: of what later frames have corrected, nothing.
+  Trajectory online_trajectory() const;
   /// The keyframes alone.
   Trajectory keyframes() const;
   /// Those that were optimised together last: positions in keyframes(), the newest last.
   std::vector<int> window() const;
+  /// The places that looked known, with what came of it: in the order of the newer of the two keyframes, which
+  /// are positions in keyframes().
+  std::vector<Loop> loops() const;
   /// The Gaussian map.
   GaussianCloud map() const;
   /// Renders the map; world frame as in trajectory().

@@ -42,7 +42,8 @@ Slam::Implementation::Implementation(const SlamSettings& s, const Intrinsics& k,
       engine(options),
       history(keyframes),
       tracker(engine, settings, intrinsics, keyframes, history),
-      upkeep(engine, settings, keyframes, stop.get_token()) {}
+      upkeep(engine, settings, keyframes, stop.get_token()),
+      loops(engine, settings, intrinsics, keyframes) {}
 
 void Slam::Implementation::check_usable() const {
   if (broken) throw StateError("an error has left the map half done, so no frame may follow: " + *broken);
@@ -114,14 +115,15 @@ Sighting Slam::Implementation::sight(const Frame& frame, ColourGrid grid, FrameR
   upkeep.approach(points, predicted);
   Sighting sighting{hold(frame, report.gains, predicted), std::move(points), {}, {}, {}};
   FrameFeatures features(frame, intrinsics);
-  tracker.track(sighting.image.handle(), features, predicted, report);
+  const auto approach = [&](const Pose& pose) { upkeep.approach(sighting.points, pose); };
+  tracker.track(sighting.image.handle(), features, predicted, approach, report);
   // Exposures wander all the time; only a frame that cannot be tracked for it is corrected.
   const Eigen::Vector3f gains = report.lost() && before == as_it_is ? gains_now() : as_it_is;
   if (gains != as_it_is) {
     FrameReport other{.index = report.index, .timestamp = report.timestamp};
     other.gains = gains;
     HeldFrame image = hold(frame, gains, predicted);
-    tracker.track(image.handle(), features, predicted, other);
+    tracker.track(image.handle(), features, predicted, approach, other);
     if (!other.lost()) {
       report = other;
       sighting.image = std::move(image);
@@ -172,11 +174,14 @@ void Slam::Implementation::map_first(const Frame& frame) {
   upkeep.densify();
   upkeep.optimise(std::vector<int>(settings.first_iterations - half, 0), {}, report);
   keyframes.set_window({0}, settings.tracking.gauss_newton.references);
+  loops.begin();
 }
 
 void Slam::Implementation::extend_map(const Frame& frame, Sighting sighting) {
   const FrameReport& report = history.last_report();
   tracker.accept(report);
+  if (report.found_at >= 0)
+    keyframes.return_to(report.found_at, settings.tracking.gauss_newton.references);
   first_frame.reset();
   pending.reset();
   if (report.keyframe) {
@@ -198,8 +203,16 @@ void Slam::Implementation::map_keyframe(const Frame& frame, Sighting sighting) {
   upkeep.judge(window.members, report);
   upkeep.densify();
   upkeep.optimise(plan.second_half, plan.refined, report);
-  report.world_to_camera = keyframes.world_to_camera(keyframes.newest());
   keyframes.set_window(window.members, settings.tracking.gauss_newton.references);
+  close_loop();
+  report.world_to_camera = keyframes.world_to_camera(keyframes.newest());
+}
+
+void Slam::Implementation::close_loop() {
+  FrameReport& report = history.last_report();
+  const auto back_at = loops.close(history.last_tracked_after(), report.covariance);
+  if (!back_at) return;
+  upkeep.optimise(upkeep.plan_both(*back_at), {}, report);
 }
 
 /// Adds the last frame as a keyframe; returns it with the colours that mapping compares with, which
@@ -221,8 +234,8 @@ Frame Slam::Implementation::add_keyframe(const Frame& frame, Sighting sighting) 
     keyframe.frame = engine.load(view_of(mapped, settings));
   }
   keyframes.add(std::move(keyframe), std::move(sighting.descriptor));
-  history.make_last_keyframe();
   tracker.begin_keyframe();
+  history.make_last_keyframe();
   return mapped;
 }
 

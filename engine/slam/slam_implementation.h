@@ -13,6 +13,7 @@
 #include "engine/slam/frame_history.h"
 #include "engine/slam/held_frame.h"
 #include "engine/slam/keyframe_graph.h"
+#include "engine/slam/loop_closer.h"
 #include "engine/slam/map_upkeep.h"
 #include "engine/slam/slam.h"
 
@@ -45,6 +46,7 @@ struct Slam::Implementation {
   FrameHistory history;
   CameraTracker tracker;
   MapUpkeep upkeep;
+  LoopCloser loops;
   FirstLight first_light;
   Eigen::Vector3f map_gains = Eigen::Vector3f::Ones();  ///< times these the map's colours are shown
   std::optional<Frame>
@@ -113,6 +115,9 @@ struct Slam::Implementation {
   void extend_map(const Frame& frame, Sighting sighting);
   void map_keyframe(const Frame& frame, Sighting sighting);
   Frame add_keyframe(const Frame& frame, Sighting sighting);
+  /// Closes a loop where the newest keyframe, which is mapped, has come back to a place; both visits are mapped
+  /// together then.
+  void close_loop();
   /// Takes what moves out of the newest keyframe, whose images `mapped` are, and out of those that were last
   /// optimised together, where the one looks through what the other shows.
   void hide_moved(Frame& mapped);

@@ -113,6 +113,7 @@ GaussianCloud spawn_gaussians(const Frame& frame, const Camera& camera, const Re
     cloud.opacity_logits.push_back(logit);
     cloud.uncertainty.push_back(0.0f);
     cloud.sampling.push_back(static_cast<float>(z / std::sqrt(k.fx * k.fy)));
+    cloud.anchors.push_back(0);
     for (int c = 0; c < 3; ++c)
       cloud.sh.push_back((gains[c] * static_cast<float>(rgb[c]) / 255 - 0.5f) / kShBase);
   }

@@ -40,6 +40,7 @@ struct SplatEngine::Implementation {
   Densifier densifier;
   FrameStore frames;
   MapBlocks blocks;
+  AnchorMover anchor_mover;
   std::vector<CameraVariable> cameras;  ///< of the views of a call, used again and again
   std::vector<ViewLists> kept_lists;    ///< of some of these views, while others are at hand
 
@@ -54,7 +55,8 @@ struct SplatEngine::Implementation {
         judge(device),
         densifier(device),
         frames(device),
-        blocks(device) {
+        blocks(device),
+        anchor_mover(device) {
     device.finish_pipelines();
   }
 
@@ -62,6 +64,15 @@ struct SplatEngine::Implementation {
   GaussianMap& change_map() {
     gauss_newton_tracker.forget_render();
     return map;
+  }
+
+  /// Has a keyframe in a place of the tracker, for frames with intrinsics `k`.
+  void hold(std::size_t place, const TrackingReference& reference, const Intrinsics& k) {
+    const Intrinsics& own = reference.camera.intrinsics;
+    if (own.width != k.width || own.height != k.height)
+      throw UsageError("a keyframe to align a frame to is not of the frame's size");
+    if (!gauss_newton_tracker.holds(place, reference.frame))
+      gauss_newton_tracker.hold(place, reference.frame, frames.on_device(reference.frame), own);
   }
 
   /// The views' cameras on the device.
@@ -170,6 +181,13 @@ int SplatEngine::focus(std::span<const WorldPoints> regions, uint32_t births) {
   return implementation_->blocks.focus(implementation_->change_map(), regions, births);
 }
 
+void SplatEngine::move(std::span<const Pose> motions) {
+  Implementation& i = *implementation_;
+  const std::vector<glsl::AnchorMotion> moved = to_device(motions);
+  i.anchor_mover.move(i.change_map(), moved);
+  i.blocks.move(i.map, moved);
+}
+
 RenderImages SplatEngine::render(const Camera& camera) const {
   return render(camera, std::span<const float>{});
 }
@@ -194,16 +212,19 @@ TrackingResult SplatEngine::track(FrameHandle frame, const Camera& start, const 
   std::vector<Camera> cameras;
   for (const TrackingReference& reference :
        references.first(std::min(references.size(), GaussNewtonTracker::kReferences))) {
-    const Intrinsics& k = reference.camera.intrinsics;
-    if (k.width != start.intrinsics.width || k.height != start.intrinsics.height)
-      throw UsageError("a keyframe to align a frame to is not of the frame's size");
-    if (!i.gauss_newton_tracker.holds(cameras.size(), reference.frame))
-      i.gauss_newton_tracker.hold(cameras.size(), reference.frame, i.frames.on_device(reference.frame),
-                                  reference.camera.intrinsics);
+    i.hold(cameras.size(), reference, start.intrinsics);
     cameras.push_back(reference.camera);
   }
   return i.gauss_newton_tracker.track(i.rasteriser, i.tracking_loss, i.map, i.frames.on_device(frame), start,
                                       settings, cameras);
+}
+
+PairAlignment SplatEngine::align(FrameHandle frame, const Camera& start, const TrackingReference& reference,
+                                 const TrackingSettings& settings) {
+  Implementation& i = *implementation_;
+  i.hold(0, reference, start.intrinsics);
+  return i.gauss_newton_tracker.align(i.rasteriser, i.frames.on_device(frame), start, reference.camera,
+                                      settings);
 }
 
 void SplatEngine::keep_render() {

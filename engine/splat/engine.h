@@ -54,6 +54,10 @@ class SplatEngine {
   /// places, when there is no room for all of it.
   int focus(std::span<const WorldPoints> regions, uint32_t births);
 
+  /// Moves the whole map with the keyframes that its Gaussians were born in: motions[a], a motion in the world,
+  /// is that of the Gaussians whose anchor is a (GaussianCloud::anchors); those of later anchors stay.
+  void move(std::span<const Pose> motions);
+
   /// Renders a camera; with sensor depth (metres, row-major), also the uncertainty.
   RenderImages render(const Camera& camera) const;
   RenderImages render(const Camera& camera, std::span<const float> sensor_depth) const;
@@ -64,6 +68,11 @@ class SplatEngine {
   /// first four `references` too; Adam does not. Throws UsageError where one is of another size.
   TrackingResult track(FrameHandle frame, const Camera& start, const TrackingSettings& settings,
                        std::span<const TrackingReference> references = {});
+
+  /// Finds the pose of a frame relative to one `reference` alone, by Gauss-Newton from that of `start`, coarse to
+  /// fine: the map has no part in it. Throws UsageError where the two are not of one size.
+  PairAlignment align(FrameHandle frame, const Camera& start, const TrackingReference& reference,
+                      const TrackingSettings& settings);
 
   /// The frame that was tracked last stays: while the map does not change, the next ones are aligned to the
   /// render that its tracking ended with, where they are near.

@@ -253,35 +253,35 @@ uint32_t GaussNewtonTracker::record_sums(gpu::Recorder& recorder, const SensorFr
 }
 
 void GaussNewtonTracker::record_step(gpu::Recorder& recorder, const Rasteriser& rasteriser,
-                                     const SensorFrame& frame, int level, bool kept, std::size_t references,
+                                     const SensorFrame& frame, int level, bool kept, const Sources& sources,
                                      const TrackingSettings& settings) {
   if (!can_interpolate(levels_[level].size)) return;
-  const auto sources = 1 + static_cast<uint32_t>(references);
   const uint32_t stride = stride_of(kStrides[level], levels_[level].size);
   uint32_t count = 0;
-  for (uint32_t source = 0; source < sources; ++source)
-    count = record_sums(recorder, frame,
-                        {.level = level, .stride = stride, .source = source, .part = source, .kept = kept},
-                        settings);
+  for (uint32_t part = 0; part < sources.count; ++part)
+    count = record_sums(
+        recorder, frame,
+        {.level = level, .stride = stride, .source = sources.first + part, .part = part, .kept = kept},
+        settings);
   recorder.dispatch(step_pass_, 1,
                     {.status = rasteriser.lists.status,
                      .partial_sums = gpu::as_words(partial_sums_),
                      .state = state_,
                      .camera = camera_},
-                    {.count = count, .sources = sources});
+                    {.count = count, .first_source = sources.first, .sources = sources.count});
 }
 
-/// Records what each source, and its photometric term alone, says of the pose that was just rendered.
+/// Records what each source, and its photometric term alone, says of the pose at hand.
 void GaussNewtonTracker::record_evidence(gpu::Recorder& recorder, const SensorFrame& frame,
-                                         std::size_t references, const TrackingSettings& settings) {
+                                         const Sources& sources, const TrackingSettings& settings) {
   if (!can_interpolate(levels_[0].size)) return;
-  const uint32_t parts = 2 * (1 + static_cast<uint32_t>(references));
+  const uint32_t parts = 2 * sources.count;
   uint32_t count = 0;
   for (uint32_t part = 0; part < parts; ++part)
     count = record_sums(recorder, frame,
                         {.level = 0,
                          .stride = stride_of(kEvidenceStride, frame.size),
-                         .source = part / 2,
+                         .source = sources.first + part / 2,
                          .part = part,
                          .photometric = part % 2 == 1,
                          .crossed = true},
@@ -293,16 +293,16 @@ void GaussNewtonTracker::record_evidence(gpu::Recorder& recorder, const SensorFr
 
 /// Records the alignment of the frame: on all levels, or to a later render on the finest alone.
 void GaussNewtonTracker::record_alignment(gpu::Recorder& recorder, const Rasteriser& rasteriser,
-                                          const SensorFrame& frame, Target target, std::size_t references,
+                                          const SensorFrame& frame, Target target, const Sources& sources,
                                           const TrackingSettings& settings) {
   if (target == Target::Later) {
     for (int i = 0; i < kLaterSteps; ++i)
-      record_step(recorder, rasteriser, frame, 0, false, references, settings);
+      record_step(recorder, rasteriser, frame, 0, false, sources, settings);
     return;
   }
   for (int level = kLevels - 1; level >= 0; --level)
     for (int i = 0; i < kFirstSteps[level]; ++i)
-      record_step(recorder, rasteriser, frame, level, target == Target::Kept, references, settings);
+      record_step(recorder, rasteriser, frame, level, target == Target::Kept, sources, settings);
 }
 
 /// Whether there is a render that was kept to which a frame that is expected at `start` can be aligned.
@@ -318,6 +318,29 @@ bool GaussNewtonTracker::kept_render_serves(const Camera& start, const TrackingS
   return alike && motion.translation().norm() < kNear && Eigen::AngleAxisd(motion.rotation()).angle() < kNear;
 }
 
+PoseEvidence GaussNewtonTracker::read_evidence(const SensorFrame& frame, const Sources& sources) const {
+  if (!can_interpolate(frame.size)) return {};
+  return evidence_of(evidence_.download(2 * sources.count), kEvidencePixels *
+                                                                stride_of(kEvidenceStride, frame.size) /
+                                                                static_cast<double>(frame.size.pixels()));
+}
+
+PairAlignment GaussNewtonTracker::align(Rasteriser& rasteriser, const SensorFrame& frame, const Camera& start,
+                                        const Camera& reference, const TrackingSettings& settings) {
+  const glsl::AlignState state = first_state(start, std::span(&reference, 1));
+  const glsl::CameraState first = to_device(start);
+  const Sources sources{1, 1};
+  camera_.upload(std::span(&first, 1));
+  state_.upload(std::span(&state, 1));
+  gpu::Recorder recorder(device_);
+  resize(recorder, frame.size);
+  record_sensor(recorder, frame);
+  record_alignment(recorder, rasteriser, frame, Target::First, sources, settings);
+  record_evidence(recorder, frame, sources, settings);
+  recorder.submit();
+  return {pose_of(camera_.download(1)[0]), read_evidence(frame, sources)};
+}
+
 TrackingResult GaussNewtonTracker::track(Rasteriser& rasteriser, TrackingLoss& loss, const GaussianMap& map,
                                          const SensorFrame& frame, const Camera& start,
                                          const TrackingSettings& settings,
@@ -329,12 +352,13 @@ TrackingResult GaussNewtonTracker::track(Rasteriser& rasteriser, TrackingLoss& l
   gpu::Recorder recorder(device_);
   resize(recorder, frame.size);
   record_sensor(recorder, frame);
+  const Sources sources{0, 1 + static_cast<uint32_t>(references.size())};
   const bool serves = kept_render_serves(start, settings);
   if (serves) set_base(state, kept_render_->camera, start);
   state_.upload(std::span(&state, 1));
   TrackingResult result;
   if (serves) {
-    record_alignment(recorder, rasteriser, frame, Target::Kept, references.size(), settings);
+    record_alignment(recorder, rasteriser, frame, Target::Kept, sources, settings);
     recorder.submit();
     state = state_.download(1)[0];
     ++result.iterations;
@@ -348,10 +372,10 @@ TrackingResult GaussNewtonTracker::track(Rasteriser& rasteriser, TrackingLoss& l
       record_begin(recorder, rasteriser, loss, frame, settings);
       record_points(recorder, rasteriser, settings);
       if (last)
-        record_evidence(recorder, frame, references.size(), settings);
+        record_evidence(recorder, frame, sources, settings);
       else
-        record_alignment(recorder, rasteriser, frame, is_first ? Target::First : Target::Later,
-                         references.size(), settings);
+        record_alignment(recorder, rasteriser, frame, is_first ? Target::First : Target::Later, sources,
+                         settings);
     });
     state = state_.download(1)[0];
     if (!last) ++result.iterations;
@@ -366,11 +390,7 @@ TrackingResult GaussNewtonTracker::track(Rasteriser& rasteriser, TrackingLoss& l
   result.valid_fraction = state.best_valid;
   result.explained = state.best_explained;
   result.seen_through = state.best_through;
-  if (can_interpolate(frame.size)) {
-    const auto parts = evidence_.download(2 * (1 + references.size()));
-    result.evidence = evidence_of(parts, kEvidencePixels * stride_of(kEvidenceStride, frame.size) /
-                                             static_cast<double>(frame.size.pixels()));
-  }
+  result.evidence = read_evidence(frame, sources);
   result.milliseconds =
       std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
   return result;

@@ -47,6 +47,11 @@ class GaussNewtonTracker {
                        const SensorFrame& frame, const Camera& start, const TrackingSettings& settings,
                        std::span<const Camera> references = {});
 
+  /// Aligns `frame` to the image of the frame in the first place alone, whose camera is `reference`, from the
+  /// pose of `start`. The map has no part in it.
+  PairAlignment align(Rasteriser& rasteriser, const SensorFrame& frame, const Camera& start,
+                      const Camera& reference, const TrackingSettings& settings);
+
  private:
   static constexpr int kLevels = 3;
 
@@ -64,6 +69,12 @@ class GaussNewtonTracker {
   /// What a frame is aligned to beside keyframes: the render that was kept, its own first one, or a later
   /// one.
   enum class Target { Kept, First, Later };
+
+  /// What a frame is aligned to: so many sources, from this one on; 0 is the render, the others are keyframes.
+  struct Sources {
+    uint32_t first = 0;
+    uint32_t count = 1;
+  };
 
   /// Which sums of an alignment.
   struct SumsOf {
@@ -96,11 +107,12 @@ class GaussNewtonTracker {
   uint32_t record_sums(gpu::Recorder& recorder, const SensorFrame& frame, const SumsOf& of,
                        const TrackingSettings& settings);
   void record_step(gpu::Recorder& recorder, const Rasteriser& rasteriser, const SensorFrame& frame, int level,
-                   bool kept, std::size_t references, const TrackingSettings& settings);
-  void record_evidence(gpu::Recorder& recorder, const SensorFrame& frame, std::size_t references,
+                   bool kept, const Sources& sources, const TrackingSettings& settings);
+  void record_evidence(gpu::Recorder& recorder, const SensorFrame& frame, const Sources& sources,
                        const TrackingSettings& settings);
+  PoseEvidence read_evidence(const SensorFrame& frame, const Sources& sources) const;
   void record_alignment(gpu::Recorder& recorder, const Rasteriser& rasteriser, const SensorFrame& frame,
-                        Target target, std::size_t references, const TrackingSettings& settings);
+                        Target target, const Sources& sources, const TrackingSettings& settings);
 
   gpu::Device& device_;
   uint32_t subgroups_;  ///< of a workgroup of align_sums: each writes a partial sum

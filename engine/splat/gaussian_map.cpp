@@ -49,6 +49,7 @@ GaussianMap::GaussianMap(gpu::Device& device)
       sh(device, "spherical harmonics"),
       uncertainty(device, "uncertainties"),
       sampling(device, "sampling"),
+      anchors(device, "anchors"),
       steps(device, "Adam steps"),
       densification(device, "densification statistics"),
       count(device, "Gaussian count"),
@@ -65,6 +66,7 @@ void GaussianMap::reserve(uint32_t capacity) {
   reserve_parameter(sh, blocks * sh_coefficients(sh_degree_));
   uncertainty.reserve(blocks, true);
   sampling.reserve(blocks, true);
+  anchors.reserve(blocks, true);
   steps.reserve(blocks, true);
   densification.reserve(blocks, true);
 }
@@ -103,6 +105,7 @@ void GaussianMap::write(const GaussianCloud& cloud, uint32_t first) {
                   first * coefficients);
   uncertainty.upload(std::span(cloud.uncertainty), first);
   sampling.upload(std::span(cloud.sampling), first);
+  anchors.upload(std::span(cloud.anchors), first);
   clear(recorder, steps, first, cloud.size());
   clear(recorder, densification, first, cloud.size());
   recorder.submit();
@@ -119,6 +122,7 @@ GaussianCloud GaussianMap::download() const {
   sh.value.buffer().download(cloud.sh.data(), 0, cloud.sh.size() * sizeof(float));
   uncertainty.buffer().download(cloud.uncertainty.data(), 0, size_ * sizeof(float));
   sampling.buffer().download(cloud.sampling.data(), 0, size_ * sizeof(float));
+  anchors.buffer().download(cloud.anchors.data(), 0, size_ * sizeof(uint32_t));
   return cloud;
 }
 
@@ -128,7 +132,7 @@ uint64_t GaussianMap::parameter_bytes() const {
 
 uint32_t GaussianMap::record_words() const {
   const auto parameters = static_cast<uint32_t>(parameter_bytes() / sizeof(uint32_t));
-  return 3 * parameters + 5;  // each with two moments; sampling, uncertainty, steps and statistics
+  return 3 * parameters + 6;  // each with two moments; sampling, anchor, uncertainty, steps and statistics
 }
 
 std::vector<uint32_t> GaussianMap::read_records(uint32_t first) {
@@ -178,6 +182,7 @@ void append_to(GaussianCloud& cloud, std::span<const uint32_t> records, uint32_t
     take(&cloud.opacity_logits[before + i], 1);
     take(&cloud.sh[(before + i) * sh_floats], sh_floats);
     take(&cloud.sampling[before + i], 1);
+    take(&cloud.anchors[before + i], 1);
     take(&cloud.uncertainty[before + i], 1);
   }
 }

@@ -54,6 +54,9 @@ class GaussianMap {
 
   /// 32-bit words that describe one Gaussian: a record, its parts in the order of for_each_array().
   uint32_t record_words() const;
+  /// Where in a record the part of one of the map's arrays begins.
+  template <class T>
+  uint32_t word_of(const gpu::Array<T>& array);
   /// Reads everything about the Gaussians from `first` on, one record after the other.
   std::vector<uint32_t> read_records(uint32_t first);
   /// Adds Gaussians at the end as they were when they were read.
@@ -66,6 +69,7 @@ class GaussianMap {
   Parameter<glsl::vec3> sh;              ///< sh_coefficients(sh_degree()) per Gaussian
   gpu::Array<float> uncertainty;         ///< as in GaussianCloud; that of a newborn Gaussian is 0
   gpu::Array<float> sampling;            ///< as in GaussianCloud
+  gpu::Array<glsl::uint> anchors;        ///< as in GaussianCloud
   gpu::Array<glsl::uint> steps;          ///< Adam steps taken by each Gaussian
   gpu::Array<glsl::vec2> densification;  ///< sum of the norms of the screen gradient, times seen
   gpu::Array<glsl::uint> count;          ///< size(), for passes that read it on the device
@@ -80,7 +84,7 @@ class GaussianMap {
   DepthModel depth_model_ = DepthModel::Plane;
 };
 
-/// Adds the parameters, sampling and uncertainties of records of GaussianMap to a cloud of the same SH
+/// Adds the parameters, sampling, anchors and uncertainties of records of GaussianMap to a cloud of the same SH
 /// degree.
 void append_to(GaussianCloud& cloud, std::span<const uint32_t> records, uint32_t record_words);
 
@@ -93,6 +97,7 @@ void GaussianMap::for_each_array(Visit&& visit) {
   visit(opacity_logits.value, 1, false);
   visit(sh.value, sh_words, false);
   visit(sampling, 1, false);
+  visit(anchors, 1, false);
   visit(uncertainty, 1, true);
   const auto moments = [&](auto& parameter, uint32_t words) {
     visit(parameter.first_moment, words, true);
@@ -105,6 +110,16 @@ void GaussianMap::for_each_array(Visit&& visit) {
   moments(sh, sh_words);
   visit(steps, 1, true);
   visit(densification, 2, true);
+}
+
+template <class T>
+uint32_t GaussianMap::word_of(const gpu::Array<T>& array) {
+  uint32_t offset = 0, found = 0;
+  for_each_array([&](const auto& other, uint32_t words, bool) {
+    if (static_cast<const void*>(&other) == &array) found = offset;
+    offset += words;
+  });
+  return found;
 }
 
 }  // namespace surefield

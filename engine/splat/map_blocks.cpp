@@ -143,6 +143,33 @@ void MapBlocks::bring(GaussianMap& map, const std::set<Block>& wanted) {
   parked_ -= static_cast<uint32_t>(records.size() / map.record_words());
 }
 
+void MapBlocks::move(GaussianMap& map, std::span<const glsl::AnchorMotion> motions) {
+  const RecordMover mover(map, motions);
+  const std::size_t words = map.record_words();
+  std::map<Block, std::vector<uint32_t>> arrivals;
+  for (auto& [block, records] : blocks_) {
+    std::size_t kept = 0;
+    for (std::size_t at = 0; at < records.size(); at += words) {
+      const std::span record = std::span(records).subspan(at, words);
+      const Block home = mover.move(record) ? block_of(mover.mean(record)) : block;
+      if (home != block) {
+        std::vector<uint32_t>& other = arrivals[home];
+        other.insert(other.end(), record.begin(), record.end());
+        continue;
+      }
+      if (kept != at)
+        std::copy(record.begin(), record.end(), records.begin() + static_cast<std::ptrdiff_t>(kept));
+      kept += words;
+    }
+    records.resize(kept);
+  }
+  for (auto& [block, records] : arrivals) {
+    std::vector<uint32_t>& home = blocks_[block];
+    home.insert(home.end(), records.begin(), records.end());
+  }
+  std::erase_if(blocks_, [](const auto& entry) { return entry.second.empty(); });
+}
+
 void MapBlocks::append_to(GaussianCloud& cloud, const GaussianMap& map) const {
   for (const auto& entry : blocks_) surefield::append_to(cloud, entry.second, map.record_words());
 }

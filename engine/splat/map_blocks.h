@@ -4,6 +4,7 @@
 #include <map>
 #include <set>
 
+#include "engine/splat/anchor_motion.h"
 #include "engine/splat/engine.h"
 #include "engine/splat/map_rebuild.h"
 
@@ -27,6 +28,10 @@ class MapBlocks {
   bool is_whole(const GaussianMap& map, uint32_t births) const;
   bool recall(GaussianMap& map, const WorldPoints& points);
   int focus(GaussianMap& map, std::span<const WorldPoints> regions, uint32_t births);
+
+  /// Moves the Gaussians in host memory with the keyframes that they were born in: motions[a] is that of anchor
+  /// a in the world, and what has none stays. Those that come to lie in another block are there from now on.
+  void move(GaussianMap& map, std::span<const glsl::AnchorMotion> motions);
 
   /// Gaussians in host memory.
   uint32_t parked() const { return parked_; }

@@ -93,6 +93,12 @@ struct TrackingResult {
   double milliseconds = 0;
 };
 
+/// What aligning one frame to another alone found.
+struct PairAlignment {
+  Pose world_to_camera = Pose::Identity();
+  PoseEvidence evidence;
+};
+
 /// How the map is optimised (paper eq. 18 and 21): `mapping` in configs/base.yaml.
 struct MappingSettings {
   double weight_colour = 1.0;

@@ -58,7 +58,10 @@ Controls follow(const Scene& scene, const PathStyle& style, RandomStream random,
                 double jitter) {
   Controls controls;
   const std::size_t round = scene.circuit.size();
-  const auto first = static_cast<std::size_t>(random.index(static_cast<int>(round)));
+  const int anywhere = random.index(static_cast<int>(round));
+  // The spline begins at its second point.
+  const auto first = scene.first_stop < 0 ? static_cast<std::size_t>(anywhere)
+                                          : (static_cast<std::size_t>(scene.first_stop) + round - 1) % round;
   const auto off = [&](double size) {
     // One after the other: the order in which a call's arguments are computed differs between compilers.
     const double z = random.uniform(-0.6 * size, 0.6 * size);

@@ -16,4 +16,8 @@ Scene make_corridor(uint32_t seed);
 /// 15 x 11 x 4.5 m with pillars and little else.
 Scene make_hall(uint32_t seed);
 
+/// Two rooms of 4.6 x 4.2 m that differ by a vase and some books alone, joined by a corridor; walks visit the
+/// first, then the second.
+Scene make_twins(uint32_t seed);
+
 }  // namespace surefield

@@ -22,8 +22,11 @@ struct Place {
   Scene (*make)(uint32_t seed);
 };
 
-constexpr Place kPlaces[] = {
-    {"office", make_office}, {"apartment", make_apartment}, {"corridor", make_corridor}, {"hall", make_hall}};
+constexpr Place kPlaces[] = {{"office", make_office},
+                             {"apartment", make_apartment},
+                             {"corridor", make_corridor},
+                             {"hall", make_hall},
+                             {"twins", make_twins}};
 
 }  // namespace
 

@@ -51,7 +51,8 @@ struct Shape {
   Eigen::Vector3d texture_origin = Eigen::Vector3d::Zero();          ///< world
   int material = 0;                                                  ///< of Scene::materials
   int object = 0;                                                    ///< of Scene::objects
-  bool casts_shadow = true;                                          ///< lamps do not
+  uint32_t texture = 0;      ///< bodies of the same number have the same texture; 0: one of its own
+  bool casts_shadow = true;  ///< lamps do not
 
   /// World offsets from the centre to unit coordinates, where a box is the cube from -1 to 1 and an ellipsoid
   /// the unit ball.
@@ -94,13 +95,14 @@ struct Scene {
   std::vector<Light> lights;
   std::vector<std::string> objects;  ///< what each object is: "wall", "chair", ...
   std::vector<Waypoint> circuit;     ///< a closed walk on which nothing is nearer than 0.35 m
+  int first_stop = -1;               ///< of the circuit, where walks begin; -1: the path's seed says where
   MovingObject visitor;              ///< somebody who may walk about
 
   /// Distance from a point to the nearest body, metres.
   double clearance(const Eigen::Vector3d& point) const;
 };
 
-/// The kinds of scenes by name: office, apartment, corridor, hall.
+/// The kinds of scenes by name: office, apartment, corridor, hall, twins.
 std::vector<std::string> scene_names();
 
 /// Builds the scene of that name. The seed varies furniture, colours and textures. Throws InputError for an

@@ -27,8 +27,9 @@ glsl::SceneShape to_device(const Shape& shape) {
 glsl::SceneSurface surface_of(const Shape& shape, glsl::uint index) {
   // Bodies of one wall share its texture.
   const bool continued = shape.texture_origin != shape.shape_to_world.translation();
+  const glsl::uint own = shape.texture != 0 ? shape.texture : index + 1;
   return {vec(shape.half_size), vec(shape.texture_origin), static_cast<glsl::uint>(shape.material),
-          continued ? 0 : index + 1};
+          continued ? 0 : own};
 }
 
 glsl::SceneMaterial to_device(const Material& m, glsl::uint index) {

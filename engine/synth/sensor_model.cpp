@@ -13,8 +13,8 @@ using Eigen::Vector3d;
 
 namespace {
 
-constexpr double kJump = 0.35;              // of the light
-constexpr double kFadeSeconds = 12.0 / 30;  // until the light is all there
+constexpr double kJump = 0.35, kDouble = 2;  // of the light
+constexpr double kFadeSeconds = 12.0 / 30;   // until the light is all there
 
 constexpr uint32_t kDepthStream = 1u << 28, kColourStream = 2u << 28, kDriftStream = 3u << 28;
 
@@ -86,6 +86,8 @@ double KinectModel::brightness(double seconds) const {
       return drifting;
     case ExposureCourse::Jump:
       return drifting * (seconds < jump_seconds ? 1 : kJump);
+    case ExposureCourse::Double:
+      return drifting * (seconds < jump_seconds ? 1 : kDouble);
     case ExposureCourse::FadeIn:
       return drifting * std::clamp(seconds / kFadeSeconds, 0.0, 1.0);
   }

@@ -11,6 +11,7 @@ namespace surefield {
 enum class ExposureCourse {
   Drift,   ///< nothing else
   Jump,    ///< falls to 0.35 of the light, and stays there
+  Double,  ///< rises to twice the light, with bright things near white, and stays there
   FadeIn,  ///< comes up from darkness over the first twelve frames, as a camera's that starts
 };
 
@@ -34,7 +35,7 @@ struct KinectModel {
   double exposure_drift = 0.12;  ///< of the brightness, up and down
   double drift_period = 9;       ///< seconds
   ExposureCourse course = ExposureCourse::Drift;
-  double jump_seconds = 0;  ///< from when on ExposureCourse::Jump is dark
+  double jump_seconds = 0;  ///< from when on ExposureCourse::Jump is dark, and Double bright
   double exposure_seconds = 1.0 / 60;
   double readout_seconds = 0.02;  ///< from the first row's exposure to the last's
   double colour_delay = 0.006;  ///< seconds from the depth image to the middle of the colour image's exposure

@@ -53,6 +53,8 @@ const char* name_of(ExposureCourse course) {
   switch (course) {
     case ExposureCourse::Jump:
       return "jump";
+    case ExposureCourse::Double:
+      return "double";
     case ExposureCourse::FadeIn:
       return "fade-in";
     case ExposureCourse::Drift:
@@ -88,6 +90,8 @@ SequenceWriter::SequenceWriter(fs::path folder, SequenceLayout layout, const Syn
 
 void SequenceWriter::write_settings(bool complete) const {
   const SynthSettings& s = recording_.settings();
+  const std::optional<int> moved = recording_.chair_moved_at();
+  const nlohmann::json chair = moved ? nlohmann::json(*moved) : nlohmann::json();
   const nlohmann::json json = {{"schema", "surefield-synth"},
                                {"version", 1},
                                {"scene", s.scene},
@@ -100,10 +104,12 @@ void SequenceWriter::write_settings(bool complete) const {
                                {"sensor", s.sensor == SensorKind::Kinect ? "kinect" : "perfect"},
                                {"layout", layout_ == SequenceLayout::Tum ? "tum" : "replica"},
                                {"moving_object", s.moving_object},
+                               {"chair_moved_at", chair},
                                {"range_m", s.kinect.furthest},
                                {"colour_delay_s", s.kinect.colour_delay},
                                {"depth_readout_s", s.kinect.depth_readout_seconds},
                                {"exposure", name_of(s.kinect.course)},
+                               {"exposure_from", s.exposure_from.value_or(s.frames / 2)},
                                {"complete", complete}};
   write_file(folder_ / kSettingsFile, [&](std::ostream& stream) { stream << json.dump(2) << "\n"; });
 }

@@ -42,11 +42,33 @@ SyntheticRecording::SyntheticRecording(const gpu::DeviceOptions& device, const S
       device_(std::make_unique<gpu::Device>(device)),
       renderer_(*device_, scene_, settings.moving_object) {
   kinect_.seed = settings.seed;
-  kinect_.jump_seconds = timestamp(settings.frames / 2);
+  kinect_.jump_seconds = timestamp(settings.exposure_from.value_or(settings.frames / 2));
+  if (settings.moved_chair) {
+    moved_ = move_chair(scene_, settings.frames, [this](int i) { return visible_shares(i); });
+    moved_renderer_ = std::make_unique<SceneRenderer>(*device_, moved_->scene, settings.moving_object);
+  }
   for (int i = 0; i < count(); ++i) {
     const Pose world_to_camera = settings.beside > 0 ? pose_beside(i) : path_.world_to_camera(timestamp(i));
     ground_truth_.push_back({timestamp(i), world_to_camera.inverse()});
   }
+}
+
+/// The share of a small image of frame `i` that each object takes.
+std::vector<double> SyntheticRecording::visible_shares(int i) const {
+  const Intrinsics small{64, 48, 54.4, 54.4, 31.5, 23.5};
+  const cv::Mat shapes = renderer_.render(Camera{small, path_.world_to_camera(timestamp(i))}).shapes;
+  std::vector<double> shares(scene_.objects.size(), 0);
+  for (const int shape : cv::Mat_<int>(shapes)) {
+    // The visitor's shapes follow those of the scene.
+    if (shape < 0 || shape >= static_cast<int>(scene_.shapes.size())) continue;
+    const Shape& hit = scene_.shapes[static_cast<std::size_t>(shape)];
+    shares[static_cast<std::size_t>(hit.object)] += 1.0 / static_cast<double>(shapes.total());
+  }
+  return shares;
+}
+
+const SceneRenderer& SyntheticRecording::renderer_of(int i) const {
+  return moved_ && (settings_.beside > 0 || i >= moved_->frame) ? *moved_renderer_ : renderer_;
 }
 
 Pose SyntheticRecording::true_pose(double seconds) const {
@@ -70,7 +92,7 @@ Pose SyntheticRecording::pose_beside(int i) const {
     };
     const Pose aside = Eigen::Translation3d(kBeside * direction()) * on_path;
     const Pose pose = Eigen::AngleAxisd(kBesideTurn, direction()) * aside;
-    const cv::Mat depth = renderer_.render(Camera{intrinsics(), pose}).depth;
+    const cv::Mat depth = renderer_of(i).render(Camera{intrinsics(), pose}).depth;
     double nearest = 0;
     cv::minMaxLoc(depth, &nearest);
     if (nearest <= most) continue;
@@ -126,7 +148,7 @@ Exposure SyntheticRecording::exposure_of(int i) const {
 }
 
 LoadedFrame SyntheticRecording::load(int i) const {
-  SceneImages images = renderer_.render(exposure_of(i));
+  SceneImages images = renderer_of(i).render(exposure_of(i));
   Frame frame;
   frame.index = i;
   frame.timestamp = timestamp(i);

@@ -2,11 +2,13 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "engine/gpu/device.h"
 #include "engine/sources/recording.h"
 #include "engine/synth/camera_path.h"
+#include "engine/synth/moved_chair.h"
 #include "engine/synth/scene_renderer.h"
 #include "engine/synth/sensor_model.h"
 
@@ -24,12 +26,14 @@ struct SynthSettings {
   int frames = 60;                ///< number of frames, at 30 a second
   uint32_t seed = 1;              ///< of the scene, the path and the sensor
   SensorKind sensor = SensorKind::Perfect;
-  KinectModel kinect;  ///< of SensorKind::Kinect; the seed is that of the sequence, a jump of its exposure in
-                       ///< its middle
+  KinectModel kinect;  ///< of SensorKind::Kinect; the seed is that of the sequence, and a jump of its
+                       ///< exposure where `exposure_from` says
   /// So many single views beside the path, in place of the frames on it: 10 cm and 4 degrees away from where
   /// the camera is at evenly spaced times, taken by an ideal camera. 0: the frames.
   int beside = 0;
-  bool moving_object = false;  ///< somebody walks through the scene; not in its mesh
+  bool moving_object = false;        ///< somebody walks through the scene; not in its mesh
+  bool moved_chair = false;          ///< a chair stands elsewhere when it is seen again (moved_chair.h)
+  std::optional<int> exposure_from;  ///< frame of a jump of the exposure; none: the middle
 };
 
 /// A walk through a synthetic scene as a sequence with exact ground truth: needs no files, renders each frame
@@ -60,13 +64,19 @@ class SyntheticRecording : public Recording {
   const Trajectory& ground_truth() const { return ground_truth_; }
 
   const SynthSettings& settings() const { return settings_; }
-  const Scene& scene() const { return scene_; }
+  /// As it is in the end.
+  const Scene& scene() const { return moved_ ? moved_->scene : scene_; }
+  /// The frame from which on a chair stands elsewhere; none where none moves.
+  std::optional<int> chair_moved_at() const { return moved_ ? std::optional(moved_->frame) : std::nullopt; }
 
  private:
   std::vector<Pose> poses_around(double middle, double span, int count) const;
   bool is_kinect() const { return settings_.sensor == SensorKind::Kinect && settings_.beside == 0; }
   Pose pose_beside(int i) const;
   Exposure exposure_of(int i) const;
+  std::vector<double> visible_shares(int i) const;
+  /// What frame `i` shows: the scene before a chair was moved, or after.
+  const SceneRenderer& renderer_of(int i) const;
 
   SynthSettings settings_;
   KinectModel kinect_;
@@ -74,6 +84,8 @@ class SyntheticRecording : public Recording {
   CameraPath path_;
   std::unique_ptr<gpu::Device> device_;
   SceneRenderer renderer_;
+  std::optional<MovedChair> moved_;
+  std::unique_ptr<SceneRenderer> moved_renderer_;
   Trajectory ground_truth_;
 };
 

@@ -4,7 +4,7 @@ namespace surefield {
 
 bool GaussianCloud::is_consistent() const {
   return log_scales.size() == size() && rotations.size() == size() && opacity_logits.size() == size() &&
-         uncertainty.size() == size() && sampling.size() == size() &&
+         uncertainty.size() == size() && sampling.size() == size() && anchors.size() == size() &&
          sh.size() == size() * static_cast<std::size_t>(sh_coefficients(sh_degree)) * 3;
 }
 
@@ -16,6 +16,7 @@ void GaussianCloud::resize(std::size_t count) {
   sh.resize(count * static_cast<std::size_t>(sh_coefficients(sh_degree)) * 3, 0.0f);
   uncertainty.resize(count, 0.0f);
   sampling.resize(count, 0.0f);
+  anchors.resize(count, 0);
 }
 
 }  // namespace surefield

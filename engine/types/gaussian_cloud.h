@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 namespace surefield {
@@ -27,6 +28,9 @@ struct GaussianCloud {
   /// Width in the world of a pixel of the view that saw it from nearest, metres; 0: not known. Closer up or
   /// in a finer image than that, a Gaussian is drawn with as much of its neighbours as it was seen with.
   std::vector<float> sampling;
+  /// Position, in a run's list of keyframes, of the one that the Gaussian was born in: it follows when that
+  /// one's pose is corrected. 0 in a map of which that is not known.
+  std::vector<uint32_t> anchors;
 
   std::size_t size() const { return means.size(); }
 

@@ -8,7 +8,8 @@ namespace surefield {
 /// Where up is, against gravity, in the world of a map.
 struct UpDirection {
   Eigen::Vector3d up = -Eigen::Vector3d::UnitY();  ///< unit length
-  bool measured = false;                           ///< by the map's surfaces; else as the cameras were held
+  bool measured = false;                           ///< by the map's surfaces
+  bool given = false;  ///< by a person; where neither holds, it is as the cameras were held
 };
 
 /// Finds it: floors, ceilings and tables are level and walls upright, so up is the direction near that of the

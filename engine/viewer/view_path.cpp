@@ -4,15 +4,17 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <complex>
 #include <numbers>
 
 namespace surefield {
 
 namespace {
 
-constexpr float kFaintLogit = -2.2f;   // opacity 0.1
-constexpr double kWidestShare = 0.75;  // of the Gaussians, that an orbit shows
-constexpr double kOrbitRise = 0.4;     // of the orbit's radius, that it lies above the middle
+constexpr float kFaintLogit = -2.2f;       // opacity 0.1
+constexpr double kLeftOut = 0.05;          // of the Gaussians: those that an orbit need not show
+constexpr std::size_t kMostFramed = 5000;  // Gaussians that an orbit looks at to show all
+constexpr double kOrbitRise = 0.45;        // of the orbit's radius, that it lies above the middle
 constexpr int kOrbitKeys = 72;
 constexpr double kSmallestOrbit = 0.1;  // metres
 
@@ -66,15 +68,68 @@ std::vector<Eigen::Vector3f> solid_centres(const GaussianCloud& map) {
   return centres.empty() ? map.means : centres;
 }
 
-Eigen::Vector3d median_of(const std::vector<Eigen::Vector3f>& centres) {
+/// Every so many of them, about kMostFramed.
+std::vector<Eigen::Vector3f> thinned(const std::vector<Eigen::Vector3f>& points) {
+  std::vector<Eigen::Vector3f> some;
+  for (std::size_t i = 0; i < points.size(); i += points.size() / kMostFramed + 1) some.push_back(points[i]);
+  return some;
+}
+
+/// Two level directions and up, all of unit length and at right angles.
+Eigen::Matrix3d level_axes(const Eigen::Vector3d& up) {
+  // The first is behind where the first camera of a run has looked from.
+  Eigen::Matrix3d axes;
+  axes.col(2) = up.normalized();
+  Eigen::Vector3d back = -Eigen::Vector3d::UnitZ() + axes(2, 2) * axes.col(2);
+  axes.col(0) = back.norm() < 1e-3 ? axes.col(2).unitOrthogonal() : Eigen::Vector3d(back.normalized());
+  axes.col(1) = axes.col(2).cross(axes.col(0));
+  return axes;
+}
+
+/// The middle of the box with these axes that leaves out one in twenty at each of its sides.
+Eigen::Vector3d box_middle(const std::vector<Eigen::Vector3f>& points, const Eigen::Matrix3d& axes) {
   Eigen::Vector3d middle = Eigen::Vector3d::Zero();
-  std::vector<float> values(centres.size());
-  for (int axis = 0; axis < 3 && !centres.empty(); ++axis) {
-    std::transform(centres.begin(), centres.end(), values.begin(),
-                   [&](const Eigen::Vector3f& centre) { return centre[axis]; });
-    middle[axis] = quantile(values, 0.5);
+  std::vector<float> values(points.size());
+  for (int axis = 0; axis < 3 && !points.empty(); ++axis) {
+    const Eigen::Vector3f direction = axes.col(axis).cast<float>();
+    std::transform(points.begin(), points.end(), values.begin(),
+                   [&](const Eigen::Vector3f& point) { return point.dot(direction); });
+    const double low = quantile(values, kLeftOut), high = quantile(values, 1 - kLeftOut);
+    middle += (low + high) / 2 * axes.col(axis);
   }
   return middle;
+}
+
+/// From how far off a camera with that rotation, which looks at `middle`, has all but a few points in its
+/// picture.
+double distance_to_show(const std::vector<Eigen::Vector3f>& points, const Eigen::Vector3d& middle,
+                        const Eigen::Matrix3d& rotation, const Intrinsics& lens) {
+  const Eigen::Matrix3f to_camera = rotation.transpose().cast<float>();
+  const auto wide = static_cast<float>(2 * lens.fx / lens.width),
+             high = static_cast<float>(2 * lens.fy / lens.height);
+  std::vector<float> distances;
+  for (const Eigen::Vector3f& point : points) {
+    const Eigen::Vector3f p = to_camera * (point - middle.cast<float>());
+    distances.push_back(std::max(wide * std::abs(p.x()), high * std::abs(p.y())) - p.z());
+  }
+  return distances.empty() ? 0 : quantile(distances, 1 - kLeftOut);
+}
+
+/// A smooth closed curve through the values at evenly spaced angles or above them: their two lowest
+/// harmonics, lifted by as much as the curve is below one of them.
+std::vector<double> smooth_around(const std::vector<double>& values) {
+  const auto count = static_cast<int>(values.size());
+  std::vector<double> curve(values.size(), 0);
+  for (int harmonic = 0; harmonic <= 2; ++harmonic) {
+    const auto wave = [&](int i) { return std::polar(1.0, 2 * std::numbers::pi * harmonic * i / count); };
+    std::complex<double> sum = 0;
+    for (int i = 0; i < count; ++i) sum += values[i] * std::conj(wave(i)) * (harmonic == 0 ? 1.0 : 2.0);
+    for (int i = 0; i < count; ++i) curve[i] += (sum * wave(i)).real() / count;
+  }
+  double lift = 0;
+  for (int i = 0; i < count; ++i) lift = std::max(lift, values[i] - curve[i]);
+  for (double& value : curve) value += lift;
+  return curve;
 }
 
 }  // namespace
@@ -153,27 +208,30 @@ Pose ViewPath::camera_to_world(double seconds) const {
   return pose;
 }
 
-Eigen::Vector3d middle_of(const GaussianCloud& map) {
-  return median_of(solid_centres(map));
+Eigen::Vector3d middle_of(const GaussianCloud& map, const Eigen::Vector3d& up) {
+  return box_middle(solid_centres(map), level_axes(up));
 }
 
 ViewPath orbit(const GaussianCloud& map, const Intrinsics& lens, const Eigen::Vector3d& up, double seconds) {
-  const std::vector<Eigen::Vector3f> centres = solid_centres(map);
-  const Eigen::Vector3d middle = median_of(centres);
-  std::vector<float> distances;
-  for (const Eigen::Vector3f& centre : centres) distances.push_back((centre - middle.cast<float>()).norm());
-  const double reach = distances.empty() ? 0 : quantile(distances, kWidestShare);
-  const double half_view = std::atan(std::min(lens.width / (2 * lens.fx), lens.height / (2 * lens.fy)));
-  const double radius = std::max(reach / std::sin(half_view), kSmallestOrbit) / std::hypot(1, kOrbitRise);
-  // It begins before the first camera's side of the map: behind where a run has looked from.
-  const Eigen::Vector3d side = up.normalized();
-  Eigen::Vector3d back = -Eigen::Vector3d::UnitZ() + side.z() * side;
-  back = back.norm() < 1e-3 ? side.unitOrthogonal() : Eigen::Vector3d(back.normalized());
+  const Eigen::Matrix3d axes = level_axes(up);
+  const Eigen::Vector3d middle = middle_of(map, up);
+  const std::vector<Eigen::Vector3f> points = thinned(solid_centres(map));
+  std::vector<Pose> poses;
+  std::vector<double> distances;
+  for (int i = 0; i < kOrbitKeys; ++i) {
+    const double angle = 2 * std::numbers::pi * i / kOrbitKeys;
+    const Eigen::Vector3d out =
+        axes * Eigen::Vector3d(std::cos(angle), std::sin(angle), kOrbitRise).normalized();
+    poses.push_back(look_at(middle + out, middle, axes.col(2)));
+    distances.push_back(
+        std::max(kSmallestOrbit, distance_to_show(points, middle, poses.back().linear(), lens)));
+  }
+  distances = smooth_around(distances);
   Trajectory keys;
   for (int i = 0; i <= kOrbitKeys; ++i) {
-    const double share = static_cast<double>(i) / kOrbitKeys;
-    const Eigen::Vector3d out = Eigen::AngleAxisd(2 * std::numbers::pi * share, side) * back;
-    keys.push_back({share * seconds, look_at(middle + radius * (out + kOrbitRise * side), middle, side)});
+    const int key = i % kOrbitKeys;
+    keys.push_back({seconds * i / kOrbitKeys, poses[key]});
+    keys.back().camera_to_world.translation() = middle - distances[key] * poses[key].linear().col(2);
   }
   return ViewPath(std::move(keys));
 }

@@ -43,13 +43,14 @@ class ViewPath {
   std::vector<Eigen::Vector3d> turning_rates_;  ///< at the keys, radians a second, in the camera's frame
 };
 
-/// Once around the middle of a map, which it looks at, in `seconds`. The middle is the median of the centres
-/// of Gaussians that are not faint, so that those far off do not count; the distance shows three quarters of
-/// them.
+/// Once around the middle of a map, which it looks at from above, in `seconds`; from each side about as near
+/// as nineteen in twenty of the centres of Gaussians that are not faint are in the picture.
 ViewPath orbit(const GaussianCloud& map, const Intrinsics& lens, const Eigen::Vector3d& up, double seconds);
 
-/// The middle of a map, as orbit() takes it, metres; zero where the map is empty.
-Eigen::Vector3d middle_of(const GaussianCloud& map);
+/// The middle of a map, as orbit() takes it, metres: of the upright box about the centres of Gaussians that
+/// are not faint, without one in twenty at each side, so that those far off do not count. Zero where the map
+/// is empty.
+Eigen::Vector3d middle_of(const GaussianCloud& map, const Eigen::Vector3d& up);
 
 /// A path with the lens of the camera that goes it.
 struct RecordedViewPath {

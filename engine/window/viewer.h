@@ -25,6 +25,7 @@ struct ViewerInput {
   std::vector<NumberSetting> settings;  ///< of that run, which the user may change
 
   GaussianCloud map;
+  std::optional<Eigen::Vector3d> up;  ///< where up is in its world, unit length; nullopt: the window finds it
   ViewerScene scene;
   /// The images of the frame at a position of the trajectory; nullopt or no function: there are none.
   std::function<std::optional<SceneFrame>(int)> load_frame;

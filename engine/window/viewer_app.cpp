@@ -49,7 +49,7 @@ ViewerApp::ViewerApp(ViewerInput input)
 void ViewerApp::begin_view() {
   state_.style = input_.live ? CameraStyle::Follow : CameraStyle::Orbit;
   camera_ = {};
-  camera_.set_up(find_up(input_.map, input_.scene.trajectory).up);
+  camera_.set_up(input_.up ? *input_.up : find_up(input_.map, input_.scene.trajectory).up);
   if (!input_.scene.trajectory.empty()) {
     choose_frame(0);
     camera_.follow(input_.scene.trajectory.front().camera_to_world);

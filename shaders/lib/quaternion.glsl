@@ -19,3 +19,8 @@ vec4 rotation_backward(vec4 q, mat3 G) {
               2 * (w * antisymmetric.y + x * symmetric.z + z * symmetric.x - 2 * y * (G[0][0] + G[2][2])),
               2 * (w * antisymmetric.z + x * symmetric.y + y * symmetric.x - 2 * z * (G[0][0] + G[1][1])));
 }
+
+/// The quaternion of turning by b and then by a.
+vec4 quaternion_product(vec4 a, vec4 b) {
+  return vec4(a.x * b.x - dot(a.yzw, b.yzw), a.x * b.yzw + b.x * a.yzw + cross(a.yzw, b.yzw));
+}

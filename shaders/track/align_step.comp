@@ -65,7 +65,10 @@ void main() {
     sum += more;
     values[i] = more;
     barrier();
-    if (acts) state[0].scales[source] = scales_of_source(state[0].scales[source]);
+    if (acts) {
+      const uint of = params.first_source + source;
+      state[0].scales[of] = scales_of_source(state[0].scales[of]);
+    }
     barrier();
   }
   values[i] = sum;

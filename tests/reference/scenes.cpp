@@ -117,6 +117,7 @@ void add_gaussian(Random& random, const Blob& blob, const Camera& camera, Gaussi
   const double widths = cloud.size() % 3 == 0 ? 0
                                               : random.uniform(cloud.size() % 3 == 1 ? 0.2 : 1.1,
                                                                cloud.size() % 3 == 1 ? 0.9 : 3);
+  cloud.anchors.push_back(0);
   cloud.sampling.push_back(static_cast<float>(widths * std::abs(blob.depth) / std::sqrt(k.fx * k.fy)));
   for (int c = 0; c < sh_coefficients(cloud.sh_degree); ++c) {
     // About one channel in ten of degree 0 comes out negative.

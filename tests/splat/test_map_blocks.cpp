@@ -29,6 +29,7 @@ GaussianCloud row(int blocks, int sh_degree = 0) {
     cloud.opacity_logits[i] = x / 10 - 1;
     cloud.uncertainty[i] = x / 7;
     cloud.sampling[i] = x * 1e-6f;
+    cloud.anchors[i] = static_cast<uint32_t>(i / 3);
   }
   for (std::size_t i = 0; i < cloud.sh.size(); ++i) cloud.sh[i] = static_cast<float>(i) / 97;
   return cloud;
@@ -105,6 +106,7 @@ TEST_CASE("the parts of a map on the device and in host memory make the whole cl
     CHECK(cloud.opacity_logits[i] == all.opacity_logits[was]);
     CHECK(cloud.uncertainty[i] == all.uncertainty[was]);
     CHECK(cloud.sampling[i] == all.sampling[was]);
+    CHECK(cloud.anchors[i] == all.anchors[was]);
     CHECK(std::equal(&cloud.sh[i * 12], &cloud.sh[i * 12] + 12, &all.sh[was * 12]));
   }
 }

@@ -1,9 +1,11 @@
 #include <doctest/doctest.h>
 
+#include <Eigen/Cholesky>
 #include <functional>
 
 #include "engine/gpu/recorder.h"
 #include "engine/splat/adam_tracker.h"
+#include "engine/splat/engine.h"
 #include "engine/splat/gauss_newton_tracker.h"
 #include "engine/types/error.h"
 #include "tests/splat/wall.h"
@@ -83,6 +85,29 @@ TEST_CASE("Gauss-Newton recovers a pose from near and far, with either depth") {
       CHECK(result.iterations <= 8);
       CHECK(result.valid_fraction > 0.5);
     }
+}
+
+TEST_CASE("a frame is aligned to another one alone, whatever the map, and tells how certain that is") {
+  SplatEngine engine({.device = testing::device_options().selector});
+  engine.assign(wall(200, 160, 90));
+  const Camera there = moved(0.04, 0.03);
+  const auto load = [&](const Camera& camera) { return engine.load(Seen(engine.render(camera)).view()); };
+  const FrameHandle here_frame = load(wall_camera()), there_frame = load(there);
+  engine.assign({});
+  const Camera elsewhere{wall_camera().intrinsics, Pose(Eigen::Translation3d(7, 1, -3))};
+  const Pose to_there = there.world_to_camera * wall_camera().world_to_camera.inverse();
+  // The two are where the first is said to be.
+  const PairAlignment found =
+      engine.align(there_frame, elsewhere, {here_frame, elsewhere}, {.minimum_opacity = 0.9});
+  const Pose error =
+      found.world_to_camera * elsewhere.world_to_camera.inverse() * to_there.inverse();
+  CHECK(error.translation().norm() < 1e-3);
+  CHECK(Eigen::AngleAxisd(error.rotation()).angle() < 5e-4);
+  CHECK(found.evidence.information.ldlt().isPositive());
+  CHECK(found.evidence.information.diagonal().minCoeff() > 0);
+  Camera smaller = elsewhere;
+  smaller.intrinsics.width /= 2;
+  CHECK_THROWS_AS(engine.align(there_frame, elsewhere, {here_frame, smaller}, {}), UsageError);
 }
 
 TEST_CASE("a frame near one whose render was kept is aligned to that, until the map changes") {

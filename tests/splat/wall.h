@@ -19,6 +19,7 @@ inline GaussianCloud wall(int width, int height, double focal) {
       cloud.rotations.emplace_back(1, 0, 0, 0);
       cloud.opacity_logits.push_back(3.0f);
       cloud.uncertainty.push_back(0.0f);
+      cloud.anchors.push_back(0);
       cloud.sampling.push_back(static_cast<float>(z / focal));
       for (int c = 0; c < 3; ++c)
         cloud.sh.push_back(static_cast<float>(std::sin(0.5 * u + c) * std::cos(0.4 * v - c)));

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numbers>
 #include <vector>
 
 #include "engine/synth/camera_path.h"
@@ -166,6 +167,51 @@ TEST_CASE("the circuits keep away from everything") {
       CAPTURE(seed);
       for (const Waypoint& stop : scene.circuit) CHECK(scene.clearance(stop.position) > 0.35);
     }
+  }
+}
+
+TEST_CASE("the twins look alike from the same places, but for the things on the second one's table") {
+  const Vector3d to_second(5.4, 0, 0);
+  for (const uint32_t seed : {1u, 2u}) {
+    CAPTURE(seed);
+    const Scene twins = make_scene("twins", seed);
+    const SceneRenderer renderer(testing::device(), twins);
+    const auto from = [&](const Vector3d& at, double angle) {
+      Eigen::Isometry3d camera = Eigen::Translation3d(at) * Eigen::AngleAxisd(angle, Vector3d::UnitZ()) *
+                                 Eigen::AngleAxisd(-std::numbers::pi / 2 - 0.3, Vector3d::UnitX());
+      return renderer.render(Camera{{80, 60, 68, 68, 39.5, 29.5}, camera.inverse()});
+    };
+    int differing = 0;
+    for (int i = 0; i < 8; ++i) {
+      if (i == 3 || i == 4) continue;  // through the door, at the corridor
+      CAPTURE(i);
+      const Vector3d at(1.7, 1.6, 1.45);
+      const SceneImages first = from(at, i * std::numbers::pi / 4);
+      const SceneImages second = from(at + to_second, i * std::numbers::pi / 4);
+      const cv::Mat apart = cv::abs(first.depth - second.depth) > 0.01;
+      const double share = cv::countNonZero(apart) / 4800.0;
+      CHECK(share < 0.05);
+      differing += share > 0.003;
+      CHECK(cv::norm(first.colour, second.colour, cv::NORM_L1, apart == 0) < 3.0 * 3 * 4800);
+    }
+    CHECK(differing >= 1);
+    CHECK(differing <= 3);
+  }
+}
+
+TEST_CASE("walks through the twins visit the first room, then the second, whatever the seed") {
+  for (const uint32_t seed : {1u, 2u, 3u}) {
+    const CameraPath path(make_scene("twins", seed), path_style("loop"), seed, 80);
+    const auto room = [&](double t) {
+      const Vector3d at = path.world_to_camera(t).inverse().translation();
+      return at.y() < 0 ? 0 : at.x() < 5 ? 1 : 2;
+    };
+    std::vector<int> rooms;
+    for (double t = 0; t < path.lap_seconds(); t += 0.1)
+      if (rooms.empty() || rooms.back() != room(t)) rooms.push_back(room(t));
+    CHECK(std::count(rooms.begin(), rooms.end(), 1) == 1);
+    CHECK(std::find(rooms.begin(), rooms.end(), 1) < std::find(rooms.begin(), rooms.end(), 2));
+    CHECK(std::find(rooms.begin(), rooms.end(), 2) != rooms.end());
   }
 }
 

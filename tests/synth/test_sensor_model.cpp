@@ -125,13 +125,16 @@ TEST_CASE("exposure drifts within its bounds") {
   CHECK(most == doctest::Approx(1.12).epsilon(0.01));
 }
 
-TEST_CASE("exposure jumps in the middle, or fades in over twelve frames") {
+TEST_CASE("exposure jumps down or up at its time, or fades in over twelve frames") {
   KinectModel kinect;
   kinect.exposure_drift = 0;
   kinect.course = ExposureCourse::Jump;
   kinect.jump_seconds = 2;
   CHECK(kinect.brightness(1.99) == 1);
   CHECK(kinect.brightness(2) == doctest::Approx(0.35));
+  kinect.course = ExposureCourse::Double;
+  CHECK(kinect.brightness(1.99) == 1);
+  CHECK(kinect.brightness(2) == doctest::Approx(2));
   kinect.course = ExposureCourse::FadeIn;
   CHECK(kinect.brightness(0) == 0);
   CHECK(kinect.brightness(6 / 30.0) == doctest::Approx(0.5));

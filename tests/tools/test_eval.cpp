@@ -1,4 +1,5 @@
 #include <cmath>
+#include <fstream>
 
 #include "engine/io/trajectory_file.h"
 #include "engine/types/trajectory.h"
@@ -52,6 +53,44 @@ TEST_CASE("eval measures a known error, wherever the trajectory's world lies") {
   // Every step climbs or descends by 0.1 m that the truth does not have.
   CHECK(json["rpe_translation_rmse_m"].get<double>() == doctest::Approx(0.1).epsilon(1e-6));
   CHECK(json["rpe_rotation_rmse_rad"].get<double>() < 1e-6);
+}
+
+TEST_CASE("eval --loops judges the loops of a run, and says what a table lacks") {
+  const TemporaryFolder folder;
+  const Outcome run = surefield_command(short_run(folder / "out"), folder.path());
+  REQUIRE_MESSAGE(run.code == 0, run.err);
+  const auto judge = [&] {
+    return surefield_command({"eval", "--loops", folder / "out", "--json", folder / "loops.json"},
+                             folder.path());
+  };
+  const Outcome absent = judge();
+  CHECK(absent.code == 2);
+  CHECK(contains(absent.err, "loops.csv"));
+  CHECK(contains(absent.err, "only runs that look for loops"));
+
+  std::ofstream(folder / "out/loops.csv") << "from,to,accepted,tx,ty,tz\n";
+  CHECK(contains(judge().err, "names no column \"qx\""));
+  std::ofstream(folder / "out/loops.csv") << "from,to,accepted,tx,ty,tz,qx,qy,qz,qw\n0,0,yes,0,0,0,0,0,0,1\n";
+  CHECK(contains(judge().err, "has no number in column \"accepted\""));
+  std::ofstream(folder / "out/loops.csv") << "from,to,accepted,tx,ty,tz,qx,qy,qz,qw\n0,0,1,0,0,0,0,0,0,0\n";
+  CHECK(contains(judge().err, "no rotation"));
+
+  // One that is true of any keyframe, one that is not, one that was not accepted, and one of no keyframe.
+  std::ofstream(folder / "out/loops.csv") << "similarity,from,to,why,qx,qy,qz,qw,tx,ty,tz,accepted\n"
+                                             "0.9,0,0,,0,0,0,1,0,0,0,1\n"
+                                             "0.9,0,0,,0,0,0,1,0.2,0,0,1\n"
+                                             "0.2,0,0,see-through,0,0,0,1,9,0,0,0\n"
+                                             "0.9,0,100000,,0,0,0,1,0,0,0,1\n";
+  const Outcome outcome = judge();
+  REQUIRE_MESSAGE(outcome.code == 0, outcome.err);
+  CHECK(contains(outcome.out, "revisits         0, 0 closed"));
+  CHECK(contains(outcome.out, "accepted edges   2, 1 right, 1 false"));
+  const nlohmann::json json = read_json(folder / "loops.json");
+  CHECK(json["schema"] == "surefield-loops");
+  CHECK(json["accepted"] == 2);
+  CHECK(json["false"] == 1);
+  CHECK(json["unjudged"] == 1);
+  CHECK(json["largest_error_m"].get<double>() == doctest::Approx(0.2));
 }
 
 TEST_CASE("eval --run finds again what the run found, and needs no more than its folder") {

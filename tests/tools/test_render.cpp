@@ -91,7 +91,8 @@ TEST_CASE("render --mode writes a picture of each mode that was asked for, and n
   for (const auto& file : std::filesystem::directory_iterator(folder.path() / "all"))
     written += file.path().extension() == ".png";
   CHECK(written == 10);  // all but the uncertainty of the depth, for which there is no depth
-  CHECK(read_colour(folder / "all/colour.png").at<cv::Vec3b>(24, 32) == cv::Vec3b(204, 0, 0));
+  // Red at an opacity of 0.8, and behind it a square of the darker tone, (41, 41, 43).
+  CHECK(read_colour(folder / "all/colour.png").at<cv::Vec3b>(24, 32) == cv::Vec3b(212, 8, 9));
   CHECK(read_colour(folder / "all/sensor.png").at<cv::Vec3b>(24, 32) == cv::Vec3b(10, 20, 30));
   CHECK(read_colour(folder / "all/opacity.png").at<cv::Vec3b>(24, 32) == cv::Vec3b(204, 204, 204));
 

@@ -51,6 +51,25 @@ TEST_CASE("synth writes views beside the path as a dataset of its own") {
   CHECK_FALSE(std::filesystem::exists(folder / "office/beside"));
 }
 
+TEST_CASE("synth says in its settings from when on a chair stands elsewhere, and the light is another") {
+  const TemporaryFolder folder;
+  const Outcome outcome = surefield_command(
+      {"synth", "--path", "turn", "--seed", "2", "--frames", "300", "--size", "24x18", "--sensor", "kinect",
+       "--moved-chair", "--exposure", "double", "--exposure-from", "245", "--out", folder / "turn"},
+      folder.path());
+  REQUIRE_MESSAGE(outcome.code == 0, outcome.err);
+  const nlohmann::json settings = read_json(folder / "turn/synth.json");
+  CHECK(settings["chair_moved_at"].get<int>() > 15);
+  CHECK(settings["exposure"] == "double");
+  CHECK(settings["exposure_from"] == 245);
+  // Too short for anything to be seen again.
+  const Outcome short_one = synth_command(folder, "short", {"--moved-chair"});
+  CHECK(short_one.code == 2);
+  CHECK(contains(short_one.err, "no chair"));
+  REQUIRE(synth_command(folder, "plain").code == 0);
+  CHECK(read_json(folder / "plain/synth.json")["chair_moved_at"].is_null());
+}
+
 TEST_CASE("synth names what is wrong with its options, and leaves other people's folders alone") {
   const TemporaryFolder folder;
   for (const auto& [option, value] :

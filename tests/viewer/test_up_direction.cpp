@@ -46,6 +46,7 @@ GaussianCloud room() {
   cloud.sh.assign(3 * count, 0);
   cloud.uncertainty.assign(count, 0);
   cloud.sampling.assign(count, 0);
+  cloud.anchors.assign(count, 0);
   return cloud;
 }
 

@@ -36,8 +36,10 @@ constexpr const char* kSynthExamples =
 
 const std::map<std::string, SensorKind> kSensors = {{"perfect", SensorKind::Perfect},
                                                     {"kinect", SensorKind::Kinect}};
-const std::map<std::string, ExposureCourse> kCourses = {
-    {"drift", ExposureCourse::Drift}, {"jump", ExposureCourse::Jump}, {"fade-in", ExposureCourse::FadeIn}};
+const std::map<std::string, ExposureCourse> kCourses = {{"drift", ExposureCourse::Drift},
+                                                        {"jump", ExposureCourse::Jump},
+                                                        {"double", ExposureCourse::Double},
+                                                        {"fade-in", ExposureCourse::FadeIn}};
 const std::map<std::string, SequenceLayout> kLayouts = {{"replica", SequenceLayout::Replica},
                                                         {"tum", SequenceLayout::Tum}};
 
@@ -94,7 +96,8 @@ int synthesise(SynthOptions& options) {
   return interrupted() ? kInterrupted : kSuccess;
 }
 
-void add_kinect_options(CLI::App& synth, KinectModel& kinect) {
+void add_kinect_options(CLI::App& synth, SynthSettings& settings) {
+  KinectModel& kinect = settings.kinect;
   const std::string group = "With --sensor kinect";
   synth.add_option("--range", kinect.furthest, "Farthest depth, metres")
       ->check(CLI::Range(1.0, 13.0))
@@ -113,10 +116,15 @@ void add_kinect_options(CLI::App& synth, KinectModel& kinect) {
   synth
       .add_option(
           "--exposure", kinect.course,
-          "Beside its slow drift: a jump to 0.35 of the light in the middle, or a fade-in over twelve "
+          "Beside its slow drift: a jump to 0.35 of the light, or to twice of it, or a fade-in over twelve "
           "frames")
       ->transform(CLI::CheckedTransformer(kCourses))
-      ->option_text("drift|jump|fade-in [drift]")
+      ->option_text("drift|jump|double|fade-in [drift]")
+      ->group(group);
+  synth
+      .add_option("--exposure-from", settings.exposure_from,
+                  "Frame of the jump; default: that in the middle. Choose one in which a place is seen again")
+      ->check(CLI::NonNegativeNumber)
       ->group(group);
 }
 
@@ -138,7 +146,7 @@ void add_synth(CLI::App& program, Action& action) {
   synth->add_option("--sensor", settings.sensor, "A perfect camera, or one with the errors of a Kinect")
       ->transform(CLI::CheckedTransformer(kSensors))
       ->option_text("perfect|kinect [perfect]");
-  add_kinect_options(*synth, settings.kinect);
+  add_kinect_options(*synth, settings);
   synth->add_option("--layout", options->layout, "Layout of the dataset")
       ->transform(CLI::CheckedTransformer(kLayouts))
       ->option_text("replica|tum [replica]");
@@ -150,6 +158,8 @@ void add_synth(CLI::App& program, Action& action) {
       ->check(CLI::Range(0, 10000))
       ->capture_default_str();
   synth->add_flag("--moving-object", settings.moving_object, "Somebody walks through the scene");
+  synth->add_flag("--moved-chair", settings.moved_chair,
+                  "A chair stands elsewhere when the camera sees it again");
   synth->add_option("--size", options->size, "Size of the images, pixels")
       ->type_name("WIDTHxHEIGHT")
       ->capture_default_str();

@@ -2,6 +2,7 @@
 #include <memory>
 
 #include "engine/types/error.h"
+#include "tools/eval/eval_loops.h"
 #include "tools/eval/eval_mesh.h"
 #include "tools/eval/eval_run.h"
 #include "tools/eval/eval_trajectory.h"
@@ -24,6 +25,7 @@ constexpr const char* kEvalExamples =
     "or\n"
     "the centres of the Gaussians are compared with a true surface: in the dataset's frame, or in that of "
     "--run.\n"
+    "With --loops, the loops that a run accepted are compared with what its keyframes truly see again.\n"
     "Trajectories are aligned to the truth by a rigid transform (--align se3; sim3 adds a scale); poses are\n"
     "paired where their time stamps are at most 0.02 s apart. All measures are defined in "
     "docs/evaluation.md.\n"
@@ -34,6 +36,7 @@ constexpr const char* kEvalExamples =
     "errors.json\n"
     "  surefield eval --run out/office --scale 1\n"
     "  surefield eval --run out/office --mesh office.ply --ground-truth-mesh office/mesh.ply\n"
+    "  surefield eval --loops out/walk --json loops.json\n"
     "  surefield eval --trajectory CameraTrajectory.txt --ground-truth rgbd_dataset_freiburg1_desk\n"
     "  surefield eval --trajectory monocular.csv --ground-truth groundtruth.txt --align sim3 --json "
     "errors.json\n";
@@ -42,6 +45,7 @@ struct EvalOptions {
   TrajectoryEvaluation trajectory;  ///< its json is taken from `run`
   EvalRunOptions run;               ///< its json is the file that every mode writes
   EvalMeshOptions mesh;             ///< run, dataset and json are taken from `run`
+  EvalLoopsOptions loops;           ///< dataset and json are taken from `run`
 };
 
 int compare_trajectories(const EvalOptions& options) {
@@ -58,12 +62,20 @@ int compare_with_true_mesh(const EvalOptions& options) {
   return evaluate_mesh(mesh);
 }
 
+int judge_loops(const EvalOptions& options) {
+  EvalLoopsOptions loops = options.loops;
+  loops.dataset = options.run.dataset;
+  loops.json = options.run.json;
+  return evaluate_loops(loops);
+}
+
 int evaluate(const EvalOptions& options) {
+  if (!options.loops.run.empty()) return judge_loops(options);
   if (!options.mesh.truth.empty()) return compare_with_true_mesh(options);
   if (!options.run.run.empty()) return evaluate_run(options.run);
   if (!options.trajectory.estimate.empty()) return compare_trajectories(options);
   throw InputError(
-      "nothing to measure: give --run, or --trajectory, or --ground-truth-mesh; see surefield eval "
+      "nothing to measure: give --run, --trajectory, --loops, or --ground-truth-mesh; see surefield eval "
       "--help");
 }
 
@@ -95,6 +107,9 @@ void add_eval(CLI::App& program, Action& action) {
                    "Number or part of the name of the device, see surefield devices; default: the best");
   add_trajectory_options(*eval, options->trajectory)->excludes(run);
   add_mesh_options(*eval, options->mesh);
+  CLI::Option* loops = add_loop_options(*eval, options->loops);
+  loops->excludes(run);
+  for (const char* other : {"--trajectory", "--ground-truth-mesh"}) loops->excludes(eval->get_option(other));
   eval->add_option("--json", options->run.json, "Also writes what was measured to this file");
   eval->footer(kEvalExamples);
   eval->callback([options, &action] { action = [options] { return evaluate(*options); }; });

@@ -8,11 +8,12 @@
 #include "engine/formats/mesh_file.h"
 #include "engine/io/files.h"
 #include "engine/types/error.h"
-#include "engine/viewer/up_direction.h"
+#include "tools/export/axes_option.h"
 #include "tools/export/web_page.h"
 #include "tools/report/report_data.h"
 #include "tools/shared/command.h"
 #include "tools/shared/load_map.h"
+#include "tools/shared/up_option.h"
 
 namespace surefield {
 
@@ -36,7 +37,8 @@ constexpr const char* kExportExamples =
     "  surefield export --map desk.spz --out desk.compressed.ply\n"
     "  surefield export --run out/desk --format points --out desk_points.ply\n"
     "  surefield export --mesh desk_mesh.ply --out desk_mesh.glb   # or .obj, .stl\n"
-    "  surefield export --run out/desk --web desk_web\n";
+    "  surefield export --run out/desk --web desk_web\n"
+    "  surefield export --map map.ply --up 0,-0.9,-0.4 --web map_web\n";
 
 constexpr Intrinsics kUsualCamera = {640, 480, 525, 525, 319.5, 239.5};  // of most RGB-D sensors
 
@@ -44,8 +46,10 @@ struct ExportOptions {
   std::string map, run, mesh;  ///< one of the three; the others are empty
   std::string format;          ///< one of map_formats(); empty: as `out` ends
   std::string out;
-  std::string web;      ///< folder of the page; empty: `out` is written
-  std::string dataset;  ///< of the run, where it is no longer where it was
+  std::string web;               ///< folder of the page; empty: `out` is written
+  std::string dataset;           ///< of the run, where it is no longer where it was
+  UpChoice up;                   ///< of the page or the mesh
+  std::optional<MeshAxes> axes;  ///< of a mesh; nullopt: usual_axes() where it is known where up is
 };
 
 double megabytes(const std::filesystem::path& file) {
@@ -67,6 +71,8 @@ MapFormat format_of(const ExportOptions& options) {
 }
 
 int export_map(const ExportOptions& options) {
+  if (options.up.way != UpChoice::Way::Recorded)
+    throw InputError("--up is of a page (--web) or of a mesh; maps are written in the world of their run");
   const MapFormat format = format_of(options);
   std::filesystem::path from = options.map;
   if (options.map.empty()) from = read_run(options.run).map_file();
@@ -98,16 +104,18 @@ void show_run(const ExportOptions& options, WebPageContent& content) {
 int export_web(const ExportOptions& options) {
   WebPageContent content{.camera = kUsualCamera};
   std::filesystem::path from = options.map;
+  std::optional<UpDirection> recorded;
   if (options.map.empty()) {
     const RunFolder run = read_run(options.run);
     from = run.map_file();
+    recorded = run.up();
     content.title = run.name;
     show_run(options, content);
   } else {
     content.title = from.stem().string();
   }
   content.map = load_map(from);
-  content.up = find_up(content.map, content.estimate).up;
+  content.up = options.up.of(content.map, content.estimate, recorded).up;
   std::error_code error;
   std::filesystem::create_directories(options.web, error);
   if (error) throw InputError(options.web, "cannot be created: " + error.message());
@@ -121,8 +129,17 @@ int export_web(const ExportOptions& options) {
 
 int export_mesh(const ExportOptions& options) {
   require_mesh_ending(options.out);
-  const TriangleMesh mesh = read_mesh(options.mesh);
-  write_mesh_file(options.out, mesh);
+  TriangleMesh mesh = read_mesh(options.mesh);
+  if (options.up.way == UpChoice::Way::Given) {
+    mesh.up = options.up.given;
+  } else if (options.up.way != UpChoice::Way::Recorded) {
+    throw InputError(
+        "--up of a mesh is a direction, as 0,-1,0: there are neither a map nor cameras to tell it");
+  }
+  const MeshAxes axes = options.axes.value_or(mesh.up ? usual_axes(options.out) : MeshAxes::World);
+  if (axes != MeshAxes::World && !mesh.up)
+    throw InputError(options.mesh, "does not say where up is; give --up, as 0,-1,0");
+  write_mesh_file(options.out, mesh, axes);
   fmt::print("{} vertices, {} triangles: {} ({:.2f} MB) -> {} ({:.2f} MB)\n", mesh.vertices.size(),
              mesh.triangles.size(), options.mesh, megabytes(options.mesh), options.out,
              megabytes(options.out));
@@ -156,6 +173,14 @@ void add_export(CLI::App& program, Action& action) {
                    "Folder of the run's dataset, where it is no longer where it was; has the truth")
       ->needs(run)
       ->needs(web);
+  add_up_option(
+      *command, options->up,
+      "Where up is on the page, in the world of the map; auto (by its surfaces) or camera (as the cameras "
+      "were held). Default: as the run has recorded it, else auto. Of a mesh, in the world of its run");
+  add_axes_option(
+      *command, options->axes,
+      "upright where the mesh or --up says where up is: z-up for PLY and STL, y-up for OBJ and glTF")
+      ->needs(mesh);
   command->footer(kExportExamples);
   command->callback([options, &action] {
     action = [options] {

@@ -13,13 +13,16 @@ constexpr const char* kMeshExamples =
     "Fuses depth and colour images in a truncated signed distance field and writes its surface. The images "
     "are\n"
     "those of the run's map, rendered at the estimated poses, or, for comparison, the sensor's. The mesh "
-    "lies in\n"
-    "the frame of the poses: that of the run's first camera, or the dataset's for --trajectory true.\n"
+    "stands\n"
+    "upright, turned about the place of the run's first camera; --axes world leaves it in the frame of the "
+    "poses,\n"
+    "in which trajectory.txt and map.ply are, as --trajectory does (docs/mesh.md).\n"
     "Ctrl-C writes the mesh of the frames so far; a second Ctrl-C quits at once.\n"
     "\n"
     "Examples:\n"
     "  surefield mesh --run out/desk --out desk.ply\n"
     "  surefield mesh --run out/desk --out desk.glb\n"
+    "  surefield mesh --run out/desk --axes world --out desk_in_the_frame_of_the_run.ply\n"
     "  surefield mesh --run out/desk --source sensor --voxel 0.02 --truncation 0.08 --out desk.ply\n"
     "  surefield mesh --dataset Replica/room0 --source sensor --trajectory true --out room0.ply\n";
 
@@ -54,6 +57,14 @@ void add_mesh(CLI::App& program, Action& action) {
           "--out", options->out,
           "File of the mesh; its ending names the format, .ply, .obj, .stl (no colours) or .glb (glTF)")
       ->required();
+  add_axes_option(
+      *mesh, options->axes,
+      "z-up for PLY and STL, y-up for OBJ and glTF, as programs expect; world with --trajectory, unless "
+      "--up is given");
+  add_up_option(
+      *mesh, options->up,
+      "Where up is in the frame of the poses; auto (by the surfaces of the run's map) or camera (as the "
+      "cameras were held). Default: as the run has recorded it, else auto");
   mesh->add_option("--device", options->engine.device,
                    "Number or part of the name of the device, see surefield devices; default: the best");
   mesh->footer(kMeshExamples);

@@ -13,10 +13,12 @@
 #include "engine/formats/mesh_file.h"
 #include "engine/io/trajectory_file.h"
 #include "engine/types/error.h"
+#include "tools/export/axes_option.h"
 #include "tools/results/run_configuration.h"
 #include "tools/results/run_folder.h"
 #include "tools/shared/command.h"
 #include "tools/shared/interrupt.h"
+#include "tools/shared/load_map.h"
 #include "tools/shared/progress.h"
 
 namespace surefield {
@@ -119,6 +121,28 @@ bool is_certain(const Input& input, float z) {
   return z <= input.depth_max && input.noise.sigma(z) <= input.truncation;
 }
 
+/// The axes that the file will have.
+MeshAxes axes_of(const MeshOptions& options) {
+  const bool world = !options.trajectory.empty() && options.up.way == UpChoice::Way::Recorded;
+  return options.axes.value_or(world ? MeshAxes::World : usual_axes(options.out));
+}
+
+/// Refuses to turn what nobody knows how.
+void check_axes(const MeshOptions& options) {
+  const MeshAxes axes = axes_of(options);
+  if (axes == MeshAxes::ZUp && std::filesystem::path(options.out).extension() == ".glb")
+    throw InputError(
+        "--axes z-up: glTF has y upwards; leave --axes out, or name the mesh .ply, .obj or .stl");
+  if (axes == MeshAxes::World && options.up.way != UpChoice::Way::Recorded)
+    throw InputError(
+        "--up turns the mesh upright, and --axes world leaves it as it is; leave one of them out");
+  const bool known = options.up.way == UpChoice::Way::Given || options.up.way == UpChoice::Way::Cameras;
+  if (axes != MeshAxes::World && !options.trajectory.empty() && !known)
+    throw InputError(
+        "where up is in the frame of --trajectory, the run's map does not tell; give --up, as X,Y,Z or "
+        "camera");
+}
+
 void check(const MeshOptions& options) {
   require_mesh_ending(options.out);
   if (options.run.empty() && options.source == MeshSource::Rendered) {
@@ -132,6 +156,7 @@ void check(const MeshOptions& options) {
   if (options.run.empty() && (options.dataset.empty() || options.trajectory.empty())) {
     throw InputError("without --run, fusing needs --dataset and --trajectory");
   }
+  check_axes(options);
 }
 
 Input open_input(const MeshOptions& options) {
@@ -210,6 +235,16 @@ int integrate(TsdfVolume& volume, const Input& input,
   return fused;
 }
 
+/// Where up is in the frame of the poses.
+Eigen::Vector3d up_of_poses(const Input& input, const MeshOptions& options) {
+  Trajectory poses;
+  for (const FusionView& view : input.views)
+    poses.push_back({input.dataset.recording->timestamp(view.index), view.camera.world_to_camera.inverse()});
+  const auto recorded = input.run ? input.run->up() : std::nullopt;
+  const bool by_map = options.up.needs_map(recorded);
+  return options.up.of(by_map ? load_map(input.run->map_file()) : GaussianCloud{}, poses, recorded).up;
+}
+
 int integrate_source(TsdfVolume& volume, const Input& input, const MeshOptions& options) {
   if (options.source == MeshSource::Sensor) {
     return integrate(volume, input, [&](const FusionView& view) { return sensor_images(input, view); });
@@ -228,7 +263,7 @@ int fuse_mesh(const MeshOptions& options) {
   TsdfVolume volume(options.fusion);
   const Clock::time_point start = Clock::now();
   const int fused = integrate_source(volume, input, options);
-  const TriangleMesh mesh = volume.extract();
+  TriangleMesh mesh = volume.extract();
   const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
   if (mesh.triangles.empty()) {
     if (interrupted()) return kInterrupted;
@@ -239,10 +274,13 @@ int fuse_mesh(const MeshOptions& options) {
                     std::isfinite(input.depth_max) ? fmt::format(" within {} m", input.depth_max) : "",
                     input.truncation));
   }
-  write_mesh_file(options.out, mesh);
+  const MeshAxes axes = axes_of(options);
+  if (axes != MeshAxes::World) mesh.up = up_of_poses(input, options);
+  write_mesh_file(options.out, mesh, axes);
   fmt::print("frames fused     {} of {}, {:.1f} s\n", fused, input.views.size(), seconds);
   fmt::print("distance field   {} blocks, {:.1f} MB\n", volume.blocks(),
              static_cast<double>(volume.bytes()) / 1e6);
+  fmt::print("axes             {}\n", name_of(axes));
   fmt::print("mesh             {} vertices, {} triangles: {}\n", mesh.vertices.size(), mesh.triangles.size(),
              options.out);
   return interrupted() ? kInterrupted : kSuccess;

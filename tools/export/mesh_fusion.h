@@ -1,9 +1,12 @@
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "engine/mesh/tsdf_volume.h"
 #include "engine/splat/engine.h"
+#include "tools/export/axes_option.h"
+#include "tools/shared/up_option.h"
 
 namespace surefield {
 
@@ -20,7 +23,10 @@ struct MeshOptions {
   TsdfSettings fusion;
   int stride = 1;        ///< takes every so many frames
   double depth_max = 0;  ///< metres; 0: as configured for the run
-  std::string out;       ///< PLY or GLB file
+  std::string out;       ///< a file of one of the formats of meshes
+  std::optional<MeshAxes>
+      axes;     ///< of the file; nullopt: usual_axes(), or those of the poses of `trajectory`
+  UpChoice up;  ///< in the world of the poses
   EngineOptions engine;
 };
 

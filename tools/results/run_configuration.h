@@ -9,6 +9,7 @@
 #include "engine/sources/frame_stream.h"
 #include "engine/sources/open_dataset.h"
 #include "tools/shared/picture_size.h"
+#include "tools/shared/up_option.h"
 
 namespace surefield {
 
@@ -32,6 +33,7 @@ struct RunOptions {
   std::string film;  ///< file of a film of the run; empty: none
   PictureSize film_size{1280, 720};
   bool viewer = false;  ///< shows a window beside the run
+  UpChoice up;          ///< where up is in the run's world, that of its first camera
 };
 
 /// Opens the dataset that the options name. Throws InputError; where the options say no delay of the depth

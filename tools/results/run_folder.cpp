@@ -77,6 +77,20 @@ std::string RunFolder::text(const std::string& pointer) const {
   return metrics.contains(at) && metrics[at].is_string() ? metrics[at].get<std::string>() : "";
 }
 
+std::optional<UpDirection> RunFolder::up() const {
+  const nlohmann::json& direction =
+      metrics.value(nlohmann::json::json_pointer("/up/direction"), nlohmann::json());
+  if (!direction.is_array() || direction.size() != 3) return std::nullopt;
+  UpDirection found;
+  for (int axis = 0; axis < 3; ++axis) found.up[axis] = number(fmt::format("/up/direction/{}", axis));
+  if (!found.up.allFinite() || found.up.isZero(0)) return std::nullopt;
+  found.up = found.up.stableNormalized().eval();
+  const auto flag = [&](const char* key) { return metrics["up"].value(key, nlohmann::json()) == true; };
+  found.measured = flag("measured");
+  found.given = flag("given");
+  return found;
+}
+
 RunFolder read_run(const std::filesystem::path& folder) {
   RunFolder run;
   run.path = folder;

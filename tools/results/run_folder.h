@@ -2,12 +2,14 @@
 
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "engine/slam/settings.h"
 #include "engine/sources/open_dataset.h"
 #include "engine/splat/engine.h"
+#include "engine/viewer/up_direction.h"
 #include "tools/results/map_quality.h"
 
 namespace surefield {
@@ -28,6 +30,8 @@ struct RunFolder {
   double number(const std::string& pointer) const;
   /// The text at a JSON pointer; empty where there is none.
   std::string text(const std::string& pointer) const;
+  /// Where up is, as the run was told or found; nullopt where it has not ended.
+  std::optional<UpDirection> up() const;
 };
 
 /// Reads a folder of results. Throws InputError naming the file that is missing, damaged or of another

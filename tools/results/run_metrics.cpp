@@ -106,7 +106,8 @@ std::string metrics_json(const RunRecord& record, const nlohmann::ordered_json& 
   json["map"] = {{"gaussians", record.gaussians()},
                  {"megabytes", static_cast<double>(record.engine.map_bytes) / kMegabyte}};
   json["up"] = record.up ? Json({{"direction", {record.up->up.x(), record.up->up.y(), record.up->up.z()}},
-                                 {"measured", record.up->measured}})
+                                 {"measured", record.up->measured},
+                                 {"given", record.up->given}})
                          : Json(nullptr);
   json["memory"] = {{"device_peak_mb", static_cast<double>(record.engine.device_peak_bytes) / kMegabyte},
                     {"host_peak_mb", host_peak_bytes() / kMegabyte}};

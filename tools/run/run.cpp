@@ -107,6 +107,11 @@ void add_run(CLI::App& program, Action& action) {
   run->add_flag(
       "--viewer", options->viewer,
       "Shows the map while it grows, in a window; closing it does not end the run (docs/viewer.md)");
+  add_up_option(
+      *run, options->up,
+      "Where up is in the world of the run, whose axes are its first camera's: right, down and forward; "
+      "auto (by the map's surfaces) or camera (as the cameras were held). What shows or turns the map "
+      "later goes by it (docs/viewer.md). Default: auto");
   run->add_flag("--overwrite", options->overwrite,
                 "Replaces the earlier run that --out holds; other files that are there stay");
   run->add_flag(

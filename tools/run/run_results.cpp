@@ -108,7 +108,7 @@ void save_results(const RunOutput& output, RunRecord& record, const Slam& slam, 
   if (end == RunEnd::Completed) record.end.reset();  // until the images are measured
   save_state(output, record, slam);
   record.end = end;
-  results.save("where up is", [&](const auto&) { record.up = find_up(slam.map(), record.trajectory); });
+  results.save("where up is", [&](const auto&) { record.up = output.up.of(slam.map(), record.trajectory); });
   if (end == RunEnd::Completed) {
     results.save("the image quality",
                  [&](const auto&) { record.images = measure_images(record, slam, output.source, kept); });

@@ -6,6 +6,7 @@
 #include "engine/session/results_folder.h"
 #include "engine/session/run_observer.h"
 #include "tools/results/run_record.h"
+#include "tools/shared/up_option.h"
 
 namespace surefield {
 
@@ -16,6 +17,7 @@ struct RunOutput {
   const Trajectory* truth;  ///< null where there is none
   std::string configuration;
   std::string map_format;
+  UpChoice up;
 };
 
 /// Saves what there is of a run: what `record` knows before the run is completed with what SLAM knows.

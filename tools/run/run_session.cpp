@@ -174,7 +174,7 @@ int run_session(const RunOptions& asked, const RunObservers& observers) {
   record.setup_seconds = seconds_since(start);
   announce(results.log(), record, stream, slam, options.quiet);
 
-  const RunOutput output{results, stream, dataset.truth(), configuration, options.map_format};
+  const RunOutput output{results, stream, dataset.truth(), configuration, options.map_format, options.up};
   KeptKeyframes kept;
   Checkpoints checkpoints(output, record);
   CostNote cost(options.selection.scale);

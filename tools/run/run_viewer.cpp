@@ -147,6 +147,7 @@ class ViewerObserver : public RunObserver {
 /// Shows the window; where that fails, the run goes on without.
 void show(ViewerInput input, const RunOptions& options) {
   input.engine = options.engine;
+  if (options.up.way == UpChoice::Way::Given) input.up = options.up.given;
   try {
     for (const std::string& message : show_viewer(std::move(input)))
       say(stderr, "surefield: validation: {}\n", message);

@@ -47,6 +47,7 @@ constexpr const char* kRenderExamples =
     "  surefield render --map map.ply --camera camera.json --out view --mode depth --mode ellipsoids\n"
     "  surefield render --map map.ply --camera camera.json --out view --mode error --sensor-colour rgb.png\n"
     "  surefield render --map map.ply --path orbit --out orbit.mp4\n"
+    "  surefield render --map map.ply --path orbit --up 0,-0.9,-0.4 --out orbit.mp4\n"
     "  surefield render --run out/desk --path follow --show trajectory --show camera --out follow.mp4\n"
     "  surefield render --run out/desk --path trajectory --mode colour --mode error --out frames\n"
     "  surefield render --map map.ply --path keys.json --size 1280x720 --out flight.avi\n";
@@ -190,9 +191,10 @@ int render(const RenderOptions& options) {
 
 /// The options of films.
 void add_path_options(CLI::App& command, RenderOptions& options) {
-  command.add_option("--path", options.path,
-                     "Renders a film along a path: orbit (around the map), follow (behind the run's camera), "
-                     "trajectory (the run's), truth (the dataset's), or a JSON file of keys");
+  CLI::Option* path = command.add_option(
+      "--path", options.path,
+      "Renders a film along a path: orbit (around the map), follow (behind the run's camera), "
+      "trajectory (the run's), truth (the dataset's), or a JSON file of keys");
   command.add_option("--run", options.run, "Folder that surefield run has written");
   command.add_option("--dataset", options.dataset, "Where the run's dataset is now");
   command
@@ -208,6 +210,11 @@ void add_path_options(CLI::App& command, RenderOptions& options) {
   command.add_option("--fps", options.rate, "Pictures a second of the film")
       ->check(CLI::Range(1.0, 240.0))
       ->capture_default_str();
+  add_up_option(
+      command, options.up,
+      "Where up is for an orbit, in the world of the map; auto (by its surfaces) or camera (as the cameras "
+      "were held). Default: as the run has recorded it, else auto")
+      ->needs(path);
   command.add_option("--seconds", options.seconds, "Duration of an orbit")
       ->check(CLI::Range(0.1, 3600.0))
       ->capture_default_str();

@@ -7,6 +7,7 @@
 #include "engine/splat/engine.h"
 #include "engine/viewer/view_painter.h"
 #include "tools/shared/picture_size.h"
+#include "tools/shared/up_option.h"
 
 namespace surefield {
 
@@ -32,6 +33,7 @@ struct RenderOptions {
   PictureSize size;                ///< of the pictures; zero: that of the camera
   double rate = 25;                ///< pictures a second
   double seconds = 12;             ///< of an orbit
+  UpChoice up;                     ///< of an orbit
 };
 
 /// The modes that the user asks for, in their order; "all" are those for which nothing is missing.

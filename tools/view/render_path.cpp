@@ -9,10 +9,10 @@
 #include "engine/io/camera_json.h"
 #include "engine/io/images.h"
 #include "engine/types/error.h"
+#include "engine/viewer/cutaway.h"
 #include "engine/viewer/film_picture.h"
 #include "engine/viewer/film_writer.h"
 #include "engine/viewer/follower.h"
-#include "engine/viewer/up_direction.h"
 #include "engine/viewer/view_path.h"
 #include "tools/results/run_scene.h"
 #include "tools/shared/command.h"
@@ -40,6 +40,8 @@ struct Journey {
   GaussianCloud map;
   Intrinsics lens;
   std::vector<Station> stations;
+  std::optional<Cutaway> cutaway;  ///< what is shown of the map on an orbit, about `middle`
+  Eigen::Vector3d middle = Eigen::Vector3d::Zero();
 };
 
 bool shows_thing(const RenderOptions& options, const char* thing) {
@@ -67,6 +69,8 @@ void check_journey(const RenderOptions& options) {
   if (!options.sensor_colour.empty() || !options.sensor_depth.empty())
     throw InputError(
         "--sensor-colour and --sensor-depth are of one picture; along a path, --run brings them");
+  if (options.path != kOrbit && options.up.way != UpChoice::Way::Recorded)
+    throw InputError("--up is where up is for --path orbit; other paths have it from their cameras or keys");
   if (!is_named(options.path) && !std::filesystem::exists(options.path))
     throw InputError(fmt::format("--path {}: is none of {}, and no such file", options.path,
                                  fmt::join(view_paths(), ", ")));
@@ -121,6 +125,16 @@ Intrinsics lens_of(const RenderOptions& options, const std::optional<RunScene>& 
   return run->scene.frame.camera.intrinsics;
 }
 
+/// Around the map, with what would hide its inside cut away.
+void plan_orbit(const RenderOptions& options, Journey& journey) {
+  const Trajectory cameras = journey.run ? journey.run->scene.trajectory : Trajectory{};
+  const auto recorded = journey.run ? journey.run->run.up() : std::nullopt;
+  const Eigen::Vector3d up = options.up.of(journey.map, cameras, recorded).up;
+  journey.stations = at_rate(orbit(journey.map, journey.lens, up, options.seconds), options.rate);
+  journey.middle = middle_of(journey.map, up);
+  journey.cutaway.emplace(journey.map, cameras);
+}
+
 Journey plan(const RenderOptions& options) {
   Journey journey;
   std::optional<RecordedViewPath> recorded;
@@ -134,9 +148,7 @@ Journey plan(const RenderOptions& options) {
   if (recorded) {
     journey.stations = at_rate(recorded->path, options.rate);
   } else if (options.path == kOrbit) {
-    const Trajectory seen_from = journey.run ? journey.run->scene.trajectory : Trajectory{};
-    journey.stations = at_rate(
-        orbit(journey.map, journey.lens, find_up(journey.map, seen_from).up, options.seconds), options.rate);
+    plan_orbit(options, journey);
     if (journey.stations.size() > 1) journey.stations.pop_back();  // the last is the first again
   } else {
     journey.stations = stations_of_run(*journey.run, options.path);
@@ -166,7 +178,8 @@ class Filming {
     for (ViewMode mode : modes_)
       films_.push_back(
           std::make_unique<FilmWriter>(film_of(options.out, mode, modes_.size() > 1), options.rate));
-    painter_.assign(journey.map, journey.run ? settings_of(journey.run->run).depth_model : DepthModel::Plane);
+    if (journey.run) depth_model_ = settings_of(journey.run->run).depth_model;
+    painter_.assign(journey.map, depth_model_);
   }
 
   /// Until the last picture, or until the user interrupts.
@@ -203,6 +216,8 @@ class Filming {
       if (!frame) return;  // the run has skipped it as well, or its images have gone since
       painter_.set_sensor(view_of(*frame), frame->camera.intrinsics);
     }
+    if (journey_.cutaway)
+      painter_.assign(journey_.cutaway->seen_from(station.camera_to_world, journey_.middle), depth_model_);
     const std::vector<Line> lines = lines_at(station);
     for (std::size_t k = 0; k < modes_.size(); ++k) {
       ViewSettings view = options_.view;
@@ -245,6 +260,7 @@ class Filming {
   const Journey& journey_;
   gpu::Device device_;
   ViewPainter painter_;
+  DepthModel depth_model_ = DepthModel::Plane;
   std::vector<ViewMode> modes_;
   std::vector<std::unique_ptr<FilmWriter>> films_;  ///< one for each mode
 };

@@ -11,6 +11,7 @@
 #include "tools/shared/command.h"
 #include "tools/shared/interrupt.h"
 #include "tools/shared/load_map.h"
+#include "tools/shared/up_option.h"
 
 namespace surefield {
 
@@ -30,6 +31,7 @@ struct ViewOptions {
   std::string dataset;
   std::string out = ".";
   EngineOptions engine;
+  UpChoice up;
 };
 
 std::vector<FrameNumbers> numbers_of(const RunFolder& run) {
@@ -67,14 +69,17 @@ int view(const ViewOptions& options) {
   input.engine = options.engine;
   input.interrupted = interrupted;
   std::filesystem::path file = options.what;
+  std::optional<UpDirection> recorded;
   if (std::filesystem::is_directory(file)) {
     const auto run = std::make_shared<const RunScene>(read_run_scene(file, options.dataset));
     file = run->run.map_file();
     add_run_to(input, run);
+    recorded = run->run.up();
   } else {
     input.scene.status = options.what;
   }
   input.map = load_map(file);
+  input.up = options.up.of(input.map, input.scene.trajectory, recorded).up;
   for (const std::string& message : show_viewer(std::move(input)))
     fmt::print(stderr, "surefield: validation: {}\n", message);
   return interrupted() ? kInterrupted : kSuccess;
@@ -90,6 +95,10 @@ void add_view(CLI::App& program, Action& action) {
       ->required();
   command->add_option("--dataset", options->dataset, "Where the run's dataset is now");
   command->add_option("--out", options->out, "Folder of screenshots and saved maps")->capture_default_str();
+  add_up_option(
+      *command, options->up,
+      "Where up is, in the world of the map; auto (by its surfaces) or camera (as the cameras were held). "
+      "Default: as the run has recorded it, else auto");
   command->add_option("--device", options->engine.device,
                       "Number or part of the name of the device, see surefield devices; default: the best");
   command->add_flag("--validate", options->engine.validate, "Runs under Vulkan's validation layer (slow)");

@@ -1,0 +1,32 @@
+#include "engine/slam/loop.h"
+
+namespace surefield {
+
+const char* name_of(LoopVerdict verdict) {
+  switch (verdict) {
+    case LoopVerdict::Accepted:
+      return "accepted";
+    case LoopVerdict::Agreed:
+      return "agreed";
+    case LoopVerdict::Waiting:
+      return "waiting";
+    case LoopVerdict::FewMatches:
+      return "few matches";
+    case LoopVerdict::Clustered:
+      return "clustered";
+    case LoopVerdict::Unaligned:
+      return "unaligned";
+    case LoopVerdict::LittleShared:
+      return "little shared";
+    case LoopVerdict::OtherDepth:
+      return "other depth";
+    case LoopVerdict::SeenThrough:
+      return "seen through";
+    case LoopVerdict::TooFar:
+      return "too far";
+    default:
+      return "contradicted";
+  }
+}
+
+}  // namespace surefield
