@@ -1,10 +1,12 @@
 // Levenberg-Marquardt on a pose graph (Madsen, Nielsen and Tingleff, 2004: damping by the gain ratio).
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "engine/graph/block_system.h"
 #include "engine/graph/pose_graph.h"
 #include "engine/graph/twist.h"
+#include "engine/types/error.h"
 
 namespace surefield {
 
@@ -14,6 +16,9 @@ constexpr double kFirstDamping = 1e-4;  // of the diagonal
 constexpr double kMostDamping = 1e12;
 constexpr double kLeastDamping = 1e-12;
 constexpr double kDiagonalFloor = 1e-6;  // of its largest number, for directions that nothing measures
+constexpr int kMostChoices = 10;         // of edges
+constexpr double kFirstWidening = 16;    // of the chi2 up to which edges are chosen, at first
+constexpr double kChoiceNarrowing = 4;   // of it from one choice to the next
 constexpr double kLeastStep = 1e-10;     // metres and radians
 
 }  // namespace
@@ -140,6 +145,30 @@ GraphSolveResult PoseGraph::solve(const GraphSolveOptions& options) {
       raise *= 2;
     }
   }
+  return result;
+}
+
+GraphSolveResult PoseGraph::solve_without_contradicted(double most_chi2, const GraphSolveOptions& options) {
+  if (!(most_chi2 > 0)) throw UsageError("the largest chi2 of an edge must be positive");
+  const std::vector<Edge> all = edges_;
+  const auto chosen = [&](double most) {
+    std::vector<bool> choice;
+    for (const Edge& edge : all)
+      choice.push_back(edge.kernel.kind == RobustKernel::Kind::None || chi2_of(edge) <= most);
+    return choice;
+  };
+  GraphSolveResult result;
+  double widening = kFirstWidening;
+  std::vector<bool> before, now = chosen(widening * most_chi2);
+  for (int round = 0; round < kMostChoices && (now != before || widening > 1); ++round) {
+    edges_.clear();
+    for (std::size_t e = 0; e < all.size(); ++e)
+      if (now[e]) edges_.push_back(all[e]);
+    result = solve(options);
+    widening = std::max(1.0, widening / kChoiceNarrowing);
+    before = std::exchange(now, chosen(widening * most_chi2));
+  }
+  edges_ = all;
   return result;
 }
 

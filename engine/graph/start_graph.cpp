@@ -1,11 +1,14 @@
 // Where to start: rotations by chordal relaxation (Martinec and Pajdla, 2007), then translations, both
 // linear. Edges with a kernel lose weight gradually, from a kernel that is wide enough for all of them to
-// their own (graduated non-convexity; Black and Rangarajan, 1996).
+// their own (graduated non-convexity; Black and Rangarajan, 1996). Edges with a kernel that no other confirms
+// take no part where most are confirmed: many false ones at full weight bend a large graph so much that right
+// ones seem false.
 #include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 #include <optional>
 
+#include "engine/graph/agreeing_loops.h"
 #include "engine/graph/block_system.h"
 #include "engine/graph/pose_graph.h"
 #include "engine/graph/twist.h"
@@ -30,6 +33,19 @@ Eigen::Matrix3d nearest_rotation(const Eigen::Matrix3d& matrix) {
   return svd.matrixU() * Eigen::DiagonalMatrix<double, 3>(1, 1, sign) * svd.matrixV().transpose();
 }
 
+/// The edges that a start rests on.
+std::vector<bool> trusted_edges(const PoseGraph& graph) {
+  std::vector<RelativePose> believed, loops;
+  for (int e = 0; e < graph.edges(); ++e)
+    (graph.kernel(e).kind == RobustKernel::Kind::None ? believed : loops).push_back(graph.edge(e));
+  const std::vector<bool> confirmed = agreeing_loops(believed, loops, graph.vertices());
+  const bool are_most = 2 * std::count(confirmed.begin(), confirmed.end(), true) > std::ssize(confirmed);
+  std::vector<bool> trusted(graph.edges(), true);
+  for (int e = 0, loop = 0; e < graph.edges() && are_most; ++e)
+    if (graph.kernel(e).kind != RobustKernel::Kind::None) trusted[e] = confirmed[loop++];
+  return trusted;
+}
+
 }  // namespace
 
 /// The two linear problems of a start. Each term of an edge is |x_j - B x_i - c|^2 with the weight W.
@@ -40,7 +56,9 @@ class GraphStart {
         numbers_(graph.unknowns()),
         size_(
             static_cast<int>(std::count_if(numbers_.begin(), numbers_.end(), [](int n) { return n >= 0; }))) {
-    edges_ = graph.edges_;
+    const std::vector<bool> trusted = trusted_edges(graph);
+    for (int e = 0; e < graph.edges(); ++e)
+      if (trusted[e]) edges_.push_back(graph.edges_[e]);
     edges_.insert(edges_.end(), graph.priors_.begin(), graph.priors_.end());
     std::vector<std::pair<int, int>> pairs;
     for (const PoseGraph::Edge& edge : edges_) {
@@ -150,7 +168,7 @@ class GraphStart {
   PoseGraph& graph_;
   std::vector<int> numbers_;
   int size_;
-  std::vector<PoseGraph::Edge> edges_;  ///< with the priors
+  std::vector<PoseGraph::Edge> edges_;  ///< that are trusted, and the priors
   std::optional<BlockSystem<3>> system_;
   std::vector<double> weights_;  ///< of the edges
   std::vector<double> kept_;     ///< what the rotations have left of the weights

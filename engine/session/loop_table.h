@@ -1,5 +1,6 @@
 #pragma once
 
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -10,5 +11,17 @@ namespace surefield {
 /// loops.csv: a line of names, then one for every place that looked known; docs/evaluation.md describes the
 /// columns. `frames` are the Frame::index of the keyframes.
 std::string loops_csv(const std::vector<Loop>& loops, const std::vector<int>& frames);
+
+/// A line of loops.csv.
+struct StoredLoop {
+  /// Between keyframes by their Frame::index. Of a loop that was not accepted only these are read; the
+  /// information is zero where the file has no column for it.
+  RelativePose measured{0, 0, Pose::Identity(), Matrix6::Zero()};
+  bool accepted = false;
+};
+
+/// Reads loops.csv by the names of its columns; other columns may stand there too. Throws InputError with the
+/// line that is damaged, or where there is no such file.
+std::vector<StoredLoop> read_loops(const std::filesystem::path& file);
 
 }  // namespace surefield

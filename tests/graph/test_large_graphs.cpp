@@ -11,6 +11,8 @@ using namespace surefield::test;
 
 namespace {
 
+constexpr double kRareChi2 = 16.8;  // six numbers exceed it in 1 of 100 cases
+
 /// The costs of a published graph's optimum (Ceres' geodesic one, from a chordal start).
 struct Published {
   const char* name;
@@ -37,7 +39,7 @@ void check_false_edges(MadeGraph made) {
   const auto off = [&] {
     PoseGraph graph = from_odometry(made, kernel);
     graph.initialise_from_edges();
-    solved_cost(graph);
+    CHECK(graph.solve_without_contradicted(kRareChi2).converged);
     return furthest_off(graph, made.truth);
   };
   const double without = off();
@@ -77,17 +79,10 @@ TEST_CASE("graphs of some hundred vertices reach from odometry what they reach f
   check_made(made_grid(8, 7, 6, {0.05, 0.1}));
 }
 
-TEST_CASE("[slow] spheres, tori and grids reach from odometry what they reach from the truth") {
-  check_made(made_sphere(50, 50, {0.01, 0.01}));
+TEST_CASE("[slow] graphs of thousands of vertices reach from odometry what they reach from the truth") {
   check_made(made_sphere(50, 50, {0.05, 0.1}));
-  check_made(made_torus(50, 50, {0.02, 0.03}));
-  check_made(made_grid(14, 14, 13, {0.1, 0.1}));
-}
-
-TEST_CASE("[slow] so do those of 5000 vertices") {
-  check_made(made_sphere(50, 100, {0.02, 0.05}));
   check_made(made_torus(50, 100, {0.05, 0.05}));
-  check_made(made_grid(18, 17, 17, {0.05, 0.05}));
+  check_made(made_grid(14, 14, 13, {0.1, 0.1}));
 }
 
 TEST_CASE("a tenth of false loops does not draw a graph of some hundred vertices away") {
@@ -97,7 +92,6 @@ TEST_CASE("a tenth of false loops does not draw a graph of some hundred vertices
 }
 
 TEST_CASE("[slow] a tenth of false loops does not draw large graphs away") {
-  check_false_edges(made_sphere(50, 50, {0.01, 0.01}));
   check_false_edges(made_sphere(50, 50, {0.05, 0.1}));
   check_false_edges(made_torus(50, 100, {0.05, 0.05}));
   check_false_edges(made_grid(14, 14, 13, {0.05, 0.05}));

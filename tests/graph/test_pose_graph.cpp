@@ -230,6 +230,12 @@ TEST_CASE("a false loop stands out by its chi2 and, with a kernel, draws nothing
     CHECK(graph.chi2(graph.edges() - 1) > 1000);
     CHECK(kernel.weight(graph.chi2(graph.edges() - 1)) < 0.01);
   }
+  PoseGraph graph = from_odometry(made, cauchy(3));
+  graph.initialise_from_edges();
+  CHECK(graph.solve_without_contradicted(16.8).converged);
+  CHECK(graph.edges() == static_cast<int>(made.edges.size()));
+  CHECK(furthest_off(graph, made.truth) < 1.5 * usual);
+  CHECK_THROWS_AS(graph.solve_without_contradicted(0), UsageError);
   PoseGraph plain = from_odometry(made);
   plain.solve();
   CHECK(furthest_off(plain, made.truth) > 3 * usual);

@@ -59,6 +59,11 @@ TEST_CASE("eval --loops judges the loops of a run, and says what a table lacks")
   const TemporaryFolder folder;
   const Outcome run = surefield_command(short_run(folder / "out"), folder.path());
   REQUIRE_MESSAGE(run.code == 0, run.err);
+  // The table of another program: the run's own folder knows nothing of it.
+  nlohmann::json metrics = read_json(folder / "out/metrics.json");
+  metrics["run"]["files"].erase("loops.csv");
+  folder.write("out/metrics.json", metrics.dump());
+  std::filesystem::remove(folder / "out/loops.csv");
   const auto judge = [&] {
     return surefield_command({"eval", "--loops", folder / "out", "--json", folder / "loops.json"},
                              folder.path());
@@ -285,7 +290,7 @@ TEST_CASE("eval names what it cannot compare") {
   write_trajectory(folder / "later.txt", later);
   CHECK(contains(message(folder / "later.txt"), "clocks differ by 1000.000 s"));
   CHECK(contains(message(folder.path()), "no known dataset layout"));
-  CHECK(contains(surefield_command({"eval"}, folder.path()).err, "give --run, or --trajectory"));
+  CHECK(contains(surefield_command({"eval"}, folder.path()).err, "give --run, --trajectory, --loops, or"));
   CHECK(contains(surefield_command({"eval", "--run", folder.path()}, folder.path()).err,
                  "is this a folder that surefield run has written?"));
 }

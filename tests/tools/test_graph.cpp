@@ -1,7 +1,12 @@
 // surefield graph: a run's graph as g2o, and a g2o file optimised.
 #include <doctest/doctest.h>
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <cmath>
+#include <fstream>
+#include <nlohmann/json.hpp>
 #include <utility>
 
 #include "engine/io/files.h"
@@ -100,6 +105,50 @@ TEST_CASE("graph writes the keyframes of a run with an edge from each to the nex
       {"graph", folder / "run", "--out", folder / "run.g2o", "--robust", "3"}, folder.path());
   CHECK(refused.code == 2);
   CHECK(contains(refused.err, "--robust is for g2o files"));
+}
+
+TEST_CASE("graph adds a run's accepted loops as edges with their information") {
+  const TemporaryFolder folder;
+  const Outcome run = surefield_command(short_run(folder / "run", 12), folder.path());
+  REQUIRE_MESSAGE(run.code == 0, run.err);
+  const auto metrics = nlohmann::json::parse(read_file(folder / "run/metrics.json"));
+  std::vector<int> keyframes;
+  for (const auto& frame : metrics["per_frame"])
+    if (frame["keyframe"] == true) keyframes.push_back(frame["index"]);
+  REQUIRE(keyframes.size() > 1);
+  const auto graph_with = [&](const std::string& names, const std::string& values) {
+    std::ofstream(folder / "run/loops.csv") << names << "\n" << values;
+    return surefield_command({"graph", folder / "run", "--out", folder / "run.g2o"}, folder.path());
+  };
+  const std::string names = "from,to,why,accepted,tx,ty,tz,qx,qy,qz,qw,information";
+  const std::string information = "11 12 13 14 15 16 22 23 24 25 26 33 34 35 36 44 45 46 55 56 66";
+  const std::string ends = fmt::format("{},{}", keyframes.back(), keyframes.front());
+  const Outcome outcome = graph_with(names, ends + ",few matches,0,0,0,0,0,0,0,1,\n" + ends +
+                                                ",agreed,1,0.5,-0.25,2,0,0.6,0,0.8," + information + "\n");
+  REQUIRE_MESSAGE(outcome.code == 0, outcome.err);
+  CHECK(contains(outcome.out, "1 of them loops"));
+  const G2oGraph graph = read_g2o(folder / "run.g2o");
+  REQUIRE(graph.edges.size() == keyframes.size());
+  const RelativePose& loop = graph.edges.back();
+  CHECK(loop.from == static_cast<int>(keyframes.size()) - 1);
+  CHECK(loop.to == 0);
+  CHECK((loop.pose.translation() - Eigen::Vector3d(0.5, -0.25, 2)).norm() < 1e-9);
+  CHECK(Eigen::Quaterniond(loop.pose.linear()).angularDistance(Eigen::Quaterniond(0.8, 0, 0.6, 0)) < 1e-9);
+  for (int row = 0; row < 6; ++row)
+    for (int column = 0; column < 6; ++column) {
+      const int number = 11 + 10 * std::min(row, column) + std::abs(row - column);
+      CHECK(loop.information(row, column) == doctest::Approx(number));
+    }
+  const auto refusal = [&](const std::string& values) {
+    const Outcome refused = graph_with(names, values);
+    CHECK(refused.code == 2);
+    return refused.err;
+  };
+  CHECK(contains(refusal(ends + ",agreed,1,0,0,0,0,0,0,1,1 2 3\n"), "loops.csv:2: has no 21 numbers"));
+  CHECK(contains(refusal("0,777,agreed,1,0,0,0,0,0,0,1," + information + "\n"), "frame 777 is no keyframe"));
+  const Outcome bare = graph_with("from,to,accepted,tx,ty,tz,qx,qy,qz,qw", ends + ",1,0,0,0,0,0,0,1\n");
+  CHECK(bare.code == 2);
+  CHECK(contains(bare.err, "has no information"));
 }
 
 TEST_CASE("graph names what is wrong with a file") {

@@ -3,14 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
-#include <map>
-#include <sstream>
 
 #include "engine/eval/loop_metrics.h"
 #include "engine/eval/pose_track.h"
 #include "engine/io/files.h"
-#include "engine/io/text_file.h"
+#include "engine/session/loop_table.h"
 #include "engine/types/error.h"
 #include "tools/results/run_folder.h"
 #include "tools/shared/command.h"
@@ -22,72 +19,6 @@ namespace surefield {
 namespace {
 
 constexpr double kDepthWidth = 160;  // pixels; more tell no more about what is seen
-
-/// The columns of loops.csv that matter here; there may be others, of text too.
-constexpr std::array kColumns = {"from", "to", "accepted", "tx", "ty", "tz", "qx", "qy", "qz", "qw"};
-
-std::vector<std::string> cells_of(const std::string& line) {
-  std::vector<std::string> cells;
-  std::istringstream stream(line);
-  for (std::string cell; std::getline(stream, cell, ',');) {
-    const auto first = cell.find_first_not_of(" \t\"");
-    cells.push_back(
-        first == std::string::npos ? "" : cell.substr(first, cell.find_last_not_of(" \t\"") - first + 1));
-  }
-  return cells;
-}
-
-/// Where each of kColumns stands.
-std::array<std::size_t, kColumns.size()> find_columns(const std::filesystem::path& file,
-                                                      const TextLine& names) {
-  const std::vector<std::string> cells = cells_of(names.text);
-  std::array<std::size_t, kColumns.size()> places{};
-  for (std::size_t i = 0; i < kColumns.size(); ++i) {
-    const auto found = std::find(cells.begin(), cells.end(), kColumns[i]);
-    if (found == cells.end())
-      throw InputError(file, names.number, fmt::format("names no column \"{}\"", kColumns[i]));
-    places[i] = static_cast<std::size_t>(found - cells.begin());
-  }
-  return places;
-}
-
-/// A loop of loops.csv, between frames by their index.
-struct StoredLoop {
-  int from = 0, to = 0;
-  bool accepted = false;
-  Pose from_to = Pose::Identity();
-};
-
-StoredLoop parse_loop(const std::filesystem::path& file, const TextLine& line,
-                      const std::array<std::size_t, kColumns.size()>& places) {
-  const std::vector<std::string> cells = cells_of(line.text);
-  std::array<double, kColumns.size()> values{};
-  for (std::size_t i = 0; i < kColumns.size(); ++i) {
-    const auto value = places[i] < cells.size() ? parse_number(cells[places[i]]) : std::nullopt;
-    if (!value)
-      throw InputError(file, line.number, fmt::format("has no number in column \"{}\"", kColumns[i]));
-    values[i] = *value;
-  }
-  const auto [from, to, accepted, tx, ty, tz, qx, qy, qz, qw] = values;
-  StoredLoop loop{static_cast<int>(from), static_cast<int>(to), accepted != 0};
-  if (!loop.accepted) return loop;
-  const Eigen::Quaterniond rotation(qw, qx, qy, qz);
-  if (!(rotation.norm() > 0.9 && rotation.norm() < 1.1))
-    throw InputError(file, line.number, "qx, qy, qz, qw are no rotation");
-  loop.from_to.linear() = rotation.normalized().toRotationMatrix();
-  loop.from_to.translation() = Eigen::Vector3d(tx, ty, tz);
-  return loop;
-}
-
-std::vector<StoredLoop> read_loops(const std::filesystem::path& file) {
-  if (!file_exists(file)) throw InputError(file, "no such file; only runs that look for loops write one");
-  const std::vector<TextLine> lines = read_lines(file);
-  if (lines.empty()) throw InputError(file, "is empty; its first line names the columns");
-  const auto places = find_columns(file, lines.front());
-  std::vector<StoredLoop> loops;
-  for (std::size_t i = 1; i < lines.size(); ++i) loops.push_back(parse_loop(file, lines[i], places));
-  return loops;
-}
 
 /// The keyframes of a run whose true poses are known.
 struct TrueKeyframes {
@@ -130,7 +61,7 @@ std::vector<LoopEdge> accepted_edges(const std::vector<StoredLoop>& loops, const
   };
   std::vector<LoopEdge> edges;
   for (const StoredLoop& loop : loops) {
-    const LoopEdge edge{position(loop.from), position(loop.to), loop.from_to};
+    const LoopEdge edge{position(loop.measured.from), position(loop.measured.to), loop.measured.pose};
     if (loop.accepted && edge.from >= 0 && edge.to >= 0) edges.push_back(edge);
   }
   return edges;

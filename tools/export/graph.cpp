@@ -19,7 +19,8 @@ namespace {
 
 constexpr const char* kGraphExamples =
     "A folder of results becomes a g2o file of its keyframes, with an edge from each to the next "
-    "(docs/graph.md).\n"
+    "and\n"
+    "one for each loop that it accepted (docs/graph.md).\n"
     "A g2o file (VERTEX_SE3:QUAT, EDGE_SE3:QUAT, FIX) of whatever program is optimised: it starts from the "
     "poses\n"
     "in the file or from those that linear equations give, whichever cost less. Without FIX the first vertex "
@@ -42,7 +43,8 @@ struct GraphOptions {
 int export_graph(const GraphOptions& options) {
   const G2oGraph graph = graph_of_run(read_run(options.input));
   write_g2o(options.out, graph);
-  fmt::print("{} keyframes, {} edges: {}\n", graph.vertices.size(), graph.edges.size(), options.out);
+  fmt::print("{} keyframes, {} edges, {} of them loops: {}\n", graph.vertices.size(), graph.edges.size(),
+             graph.edges.size() - (graph.vertices.size() - 1), options.out);
   return kSuccess;
 }
 
@@ -73,7 +75,8 @@ int optimise_graph(const GraphOptions& options) {
   linear.initialise_from_edges();
   const bool starts_linear = linear.cost() < cost_in_file;
   if (starts_linear) graph = std::move(linear);
-  const GraphSolveResult result = graph.solve();
+  const GraphSolveResult result =
+      options.robust > 0 ? graph.solve_without_contradicted(kRareChi2) : graph.solve();
   const std::chrono::duration<double> time = std::chrono::steady_clock::now() - begin;
   for (int i = 0; i < graph.vertices(); ++i) file.vertices[i].pose = graph.pose(i);
   write_g2o(options.out, file);
