@@ -53,4 +53,8 @@ void wait_for(const std::filesystem::path& file, const std::string& text);
 
 nlohmann::json read_json(const std::filesystem::path& file);
 
+/// Makes of the results of a run those of an older version, whose metrics.json does not tell what its files
+/// hold: a test may change them then.
+void forget_files(const std::filesystem::path& run);
+
 }  // namespace surefield::test

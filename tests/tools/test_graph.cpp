@@ -111,6 +111,7 @@ TEST_CASE("graph adds a run's accepted loops as edges with their information") {
   const TemporaryFolder folder;
   const Outcome run = surefield_command(short_run(folder / "run", 12), folder.path());
   REQUIRE_MESSAGE(run.code == 0, run.err);
+  forget_files(folder / "run");
   const auto metrics = nlohmann::json::parse(read_file(folder / "run/metrics.json"));
   std::vector<int> keyframes;
   for (const auto& frame : metrics["per_frame"])
