@@ -137,7 +137,7 @@ TEST_CASE("graph adds a run's accepted loops as edges with their information") {
   CHECK(Eigen::Quaterniond(loop.pose.linear()).angularDistance(Eigen::Quaterniond(0.8, 0, 0.6, 0)) < 1e-9);
   for (int row = 0; row < 6; ++row)
     for (int column = 0; column < 6; ++column) {
-      const int number = 11 + 10 * std::min(row, column) + std::abs(row - column);
+      const int number = 11 + 10 * std::min(row, column) + std::max(row, column);
       CHECK(loop.information(row, column) == doctest::Approx(number));
     }
   const auto refusal = [&](const std::string& values) {
