@@ -112,12 +112,15 @@ int ViewSession::close() {
 }
 
 cv::Mat ViewSession::settle() const {
+  // A busy machine shows a picture for a while before the next change comes.
+  constexpr int kRests = 8;
   cv::Mat last;
+  int same = 0;
   wait_for([&] {
     const cv::Mat now = screen_.picture();
-    const bool rests = !last.empty() && cv::norm(last, now, cv::NORM_INF) == 0;
+    same = !last.empty() && cv::norm(last, now, cv::NORM_INF) == 0 ? same + 1 : 0;
     last = now;
-    return rests;
+    return same >= kRests;
   });
   return last;
 }
