@@ -79,7 +79,7 @@ TEST_CASE("graphs of some hundred vertices reach from odometry what they reach f
   check_made(made_grid(8, 7, 6, {0.05, 0.1}));
 }
 
-TEST_CASE("[slow] graphs of thousands of vertices reach from odometry what they reach from the truth") {
+TEST_CASE("[long] graphs of thousands of vertices reach from odometry what they reach from the truth") {
   check_made(made_sphere(50, 50, {0.05, 0.1}));
   check_made(made_torus(50, 100, {0.05, 0.05}));
   check_made(made_grid(14, 14, 13, {0.1, 0.1}));
@@ -91,7 +91,7 @@ TEST_CASE("a tenth of false loops does not draw a graph of some hundred vertices
   check_false_edges(made_grid(8, 7, 6, {0.05, 0.05}));
 }
 
-TEST_CASE("[slow] a tenth of false loops does not draw large graphs away") {
+TEST_CASE("[long] a tenth of false loops does not draw large graphs away") {
   check_false_edges(made_sphere(50, 50, {0.05, 0.1}));
   check_false_edges(made_torus(50, 100, {0.05, 0.05}));
   check_false_edges(made_grid(14, 14, 13, {0.05, 0.05}));
