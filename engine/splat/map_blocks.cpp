@@ -12,7 +12,7 @@ namespace {
 // Device memory of a Gaussian with SH of degree 0: everything in GaussianMap, TileLists and Rasteriser that
 // has an entry for each, and half of that again, by which arrays grow ahead. Those of the sorts, which
 // exchange memory, have an entry for each instance.
-constexpr uint64_t kBytesPerGaussian = 512;
+constexpr uint64_t kBytesPerGaussian = 520;
 // Moving out takes a while: less than this part of what is on the device stays where it is, if there is room.
 constexpr uint32_t kWorthMoving = 8;
 
