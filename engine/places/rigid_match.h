@@ -25,8 +25,8 @@ struct RigidMatch {
   Pose from_to = Pose::Identity();  ///< maps points of the first to the frame of the second
   int matches = 0;                  ///< features that look alike
   int inliers = 0;                  ///< of those, the ones that the motion lays on each other
-  /// How far these spread over the second image in the direction in which they do least: a standard
-  /// deviation, in units of the distance at which images are one metre away from the camera (x / z, y / z).
+  /// How far these spread over the second image in the direction in which they do least: the standard
+  /// deviation of (x / z, y / z), pixels over the focal length.
   double spread = 0;
 };
 

@@ -18,11 +18,10 @@ namespace surefield {
 namespace {
 
 constexpr const char* kRunExamples =
-    "Writes into the folder of --out: trajectory.txt and keyframes.txt (TUM format, camera to world), "
-    "map.ply\n"
-    "(the Gaussians; map.spz with --map-format spz), metrics.json and frames.csv (docs/evaluation.md), "
-    "config.yaml (every setting as "
-    "used), log.txt.\n"
+    "Writes into the folder of --out: trajectory.txt, trajectory_online.txt (each pose as it was when its\n"
+    "frame came) and keyframes.txt (TUM format, camera to world), map.ply (the Gaussians; map.spz with\n"
+    "--map-format spz), metrics.json, frames.csv and loops.csv (docs/evaluation.md), config.yaml (every\n"
+    "setting as used), log.txt.\n"
     "They appear together when the run has ended; until then, and where it is killed, FOLDER.partial has "
     "what was\n"
     "saved every few keyframes. Ctrl-C, SIGTERM and SIGHUP end the run soon and save everything; a second "
