@@ -11,6 +11,8 @@ using namespace surefield;
 
 namespace {
 
+constexpr uint64_t kBytes = 520;  // of device memory a Gaussian, as docs/design.md says
+
 /// A place `x` blocks along the row.
 Eigen::Vector3f at(float x) {
   return MapBlocks::kEdge * Eigen::Vector3f(x, 0.5f, 0.5f);
@@ -117,7 +119,7 @@ TEST_CASE(
   MapBlocks blocks(testing::device());
   map.assign(row(40));
   const std::vector<WorldPoints> regions{{at(5.5f)}, {at(6.5f)}, {at(20.5f)}, {at(30.5f)}};
-  blocks.set_budget(512 * 29);
+  blocks.set_budget(kBytes * 29);
   CHECK(blocks.limit(map) == 29);
   CHECK_FALSE(blocks.is_whole(map, 0));
   CHECK(blocks.focus(map, regions, 0) == 3);  // 3, 1 and 3 blocks more, of 4 each
@@ -127,7 +129,7 @@ TEST_CASE(
   CHECK(blocks.recall(map, regions[2]));
   CHECK_FALSE(blocks.recall(map, regions[3]));
   CHECK(map.size() == 28);
-  blocks.set_budget(512 * 9);
+  blocks.set_budget(kBytes * 9);
   CHECK(blocks.focus(map, regions, 0) == 1);
   CHECK(map.size() == 8);  // the block of its place, and one beside it
   CHECK(map.size() + blocks.parked() == 160);
@@ -142,7 +144,7 @@ TEST_CASE("what little is not looked at stays on the device while there is room"
   CHECK(blocks.focus(map, std::vector<WorldPoints>{most}, 0) == 1);
   CHECK(blocks.is_whole(map, 0));
   CHECK(blocks.is_whole(map, 1u << 30));
-  blocks.set_budget(512 * 80);
+  blocks.set_budget(kBytes * 80);
   CHECK(blocks.is_whole(map, 0));
   CHECK_FALSE(blocks.is_whole(map, 1));
   CHECK(blocks.focus(map, std::vector<WorldPoints>{most}, 1) == 1);
