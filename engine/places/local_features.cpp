@@ -22,7 +22,19 @@ cv::Mat to_grey(const cv::Mat& rgb) {
   return reduced;
 }
 
+constexpr float kSteps = 512;  // of 1, in bytes
+
 }  // namespace
+
+FeatureBytes to_bytes(const LocalFeatures& features) {
+  return (features.array() * kSteps).round().cwiseMin(255.0f).cast<uint8_t>();
+}
+
+LocalFeatures to_floats(const FeatureBytes& features) {
+  LocalFeatures floats = features.cast<float>();
+  for (Eigen::Index i = 0; i < floats.rows(); ++i) floats.row(i).normalize();  // zeros stay
+  return floats;
+}
 
 ImageFeatures find_features(const cv::Mat& rgb) {
   const cv::Mat grey = to_grey(rgb);

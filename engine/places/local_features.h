@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstdint>
 #include <opencv2/core.hpp>
 #include <vector>
 
@@ -11,6 +12,14 @@ inline constexpr int kFeatureSize = 128;
 
 /// Descriptors of local features, a row each.
 using LocalFeatures = Eigen::Matrix<float, Eigen::Dynamic, kFeatureSize, Eigen::RowMajor>;
+
+/// The same in bytes, a quarter of the size, as keyframes keep them.
+using FeatureBytes = Eigen::Matrix<uint8_t, Eigen::Dynamic, kFeatureSize, Eigen::RowMajor>;
+
+/// Descriptors of root_sift() in steps of 1 / 512 (what is above a half, which nothing is that has detail, is
+/// cut there), and back: rows of unit length again.
+FeatureBytes to_bytes(const LocalFeatures& features);
+LocalFeatures to_floats(const FeatureBytes& features);
 
 /// Features of an image and where they are.
 struct ImageFeatures {

@@ -50,10 +50,10 @@ std::pair<int, bool> nearest(const Eigen::VectorXf& products) {
 using Matches = std::vector<std::pair<int, int>>;
 
 /// Features that are each other's nearest, clearly so as seen from the first frame.
-Matches mutual_matches(const LocalFeatures& from, const LocalFeatures& to) {
+Matches mutual_matches(const FeatureBytes& from, const FeatureBytes& to) {
   Matches matches;
   if (from.rows() == 0 || to.rows() < 2) return matches;
-  const Eigen::MatrixXf products = from * to.transpose();
+  const Eigen::MatrixXf products = to_floats(from) * to_floats(to).transpose();
   for (int i = 0; i < products.rows(); ++i) {
     const auto [j, clear] = nearest(products.row(i).transpose());
     Eigen::Index back = 0;
@@ -130,7 +130,7 @@ PlacedFeatures place_features(const Frame& frame, const Intrinsics& intrinsics) 
     placed.points.emplace_back(z * (pixel.x() - static_cast<float>(intrinsics.cx)) / intrinsics.fx,
                                z * (pixel.y() - static_cast<float>(intrinsics.cy)) / intrinsics.fy, z);
   }
-  placed.descriptors = found.descriptors(rows, Eigen::all);
+  placed.descriptors = to_bytes(found.descriptors(rows, Eigen::all));
   return placed;
 }
 

@@ -13,7 +13,7 @@ namespace surefield {
 
 /// Features of a frame that have depth: a row of `descriptors` for each of `points`.
 struct PlacedFeatures {
-  LocalFeatures descriptors;            ///< root_sift()
+  FeatureBytes descriptors;             ///< root_sift()
   std::vector<Eigen::Vector3f> points;  ///< camera frame, metres
 };
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -18,6 +19,15 @@ struct StoredLoop {
   /// information is zero where the file has no column for it.
   RelativePose measured{0, 0, Pose::Identity(), Matrix6::Zero()};
   bool accepted = false;
+  std::string why;  ///< name_of() the verdict; empty where the file does not say
+  // Not a number where the file has no such column.
+  double similarity = kUnsaid;
+  double overlap = kUnsaid;
+  double see_through = kUnsaid;
+  double correction_m = kUnsaid;
+  double correction_deg = kUnsaid;
+
+  static constexpr double kUnsaid = std::numeric_limits<double>::quiet_NaN();
 };
 
 /// Reads loops.csv by the names of its columns; other columns may stand there too. Throws InputError with the

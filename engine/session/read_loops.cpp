@@ -17,6 +17,8 @@ namespace {
 
 constexpr std::array kLoopColumns = {"from", "to", "accepted", "tx", "ty", "tz", "qx", "qy", "qz", "qw"};
 constexpr const char* kInformationColumn = "information";
+constexpr std::array kFigureColumns = {"similarity", "overlap", "see_through", "correction_cm",
+                                       "correction_deg"};
 constexpr std::size_t kInformationNumbers = 21;  // the upper triangle by rows
 
 std::vector<std::string> cells_of(const std::string& line) {
@@ -41,6 +43,8 @@ class LoopReader {
       places_[i] = *place;
     }
     information_ = find(cells, kInformationColumn);
+    why_ = find(cells, "why");
+    for (std::size_t i = 0; i < kFigureColumns.size(); ++i) figures_[i] = find(cells, kFigureColumns[i]);
   }
 
   StoredLoop parse(const TextLine& line) const {
@@ -57,6 +61,7 @@ class LoopReader {
     loop.measured.from = static_cast<int>(from);
     loop.measured.to = static_cast<int>(to);
     loop.accepted = accepted != 0;
+    describe(loop, cells);
     if (!loop.accepted) return loop;
     const Eigen::Quaterniond rotation(qw, qx, qy, qz);
     if (!(rotation.norm() > 0.9 && rotation.norm() < 1.1))
@@ -72,6 +77,20 @@ class LoopReader {
     const auto found = std::find(cells.begin(), cells.end(), name);
     if (found == cells.end()) return std::nullopt;
     return static_cast<std::size_t>(found - cells.begin());
+  }
+
+  /// What is there for people to read.
+  void describe(StoredLoop& loop, const std::vector<std::string>& cells) const {
+    const auto figure = [&](std::size_t i) {
+      if (!figures_[i] || *figures_[i] >= cells.size()) return StoredLoop::kUnsaid;
+      return parse_number(cells[*figures_[i]]).value_or(StoredLoop::kUnsaid);
+    };
+    if (why_ && *why_ < cells.size()) loop.why = cells[*why_];
+    loop.similarity = figure(0);
+    loop.overlap = figure(1);
+    loop.see_through = figure(2);
+    loop.correction_m = figure(3) / 100;
+    loop.correction_deg = figure(4);
   }
 
   Matrix6 information_of(const TextLine& line, const std::vector<std::string>& cells) const {
@@ -93,7 +112,8 @@ class LoopReader {
 
   std::filesystem::path file_;
   std::array<std::size_t, kLoopColumns.size()> places_{};
-  std::optional<std::size_t> information_;
+  std::optional<std::size_t> information_, why_;
+  std::array<std::optional<std::size_t>, kFigureColumns.size()> figures_{};
 };
 
 }  // namespace

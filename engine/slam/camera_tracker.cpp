@@ -149,7 +149,7 @@ TrackingResult CameraTracker::find_again(FrameHandle image, FrameFeatures& featu
   };
   std::vector<Place> places;
   const PlacedFeatures& own = features.get();
-  for (int k : best_apart(keyframes_.places().similarities(own.descriptors), kPlaces, 0, 0)) {
+  for (int k : best_apart(keyframes_.places().similarities(to_floats(own.descriptors)), kPlaces, 0, 0)) {
     const auto match = match_rigidly(keyframes_[k].features, own, noise_of(settings_.sensor), kFewestInliers);
     if (match) places.push_back({k, match->inliers, match->from_to * keyframes_.world_to_camera(k)});
   }

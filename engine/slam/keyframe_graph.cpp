@@ -10,12 +10,12 @@ KeyframeGraph::KeyframeGraph(const KeyframeSettings& settings, std::unique_ptr<I
       places_(settings.vocabulary.empty() ? built_in_vocabulary() : read_vocabulary(settings.vocabulary)) {}
 
 void KeyframeGraph::replace_first(Keyframe keyframe) {
-  places_.replace_last(keyframe.features.descriptors);
+  places_.replace_last(to_floats(keyframe.features.descriptors));
   keyframes_.front() = std::move(keyframe);
 }
 
 void KeyframeGraph::add(Keyframe keyframe, Eigen::VectorXf descriptor) {
-  places_.add(keyframe.features.descriptors);
+  places_.add(to_floats(keyframe.features.descriptors));
   keyframes_.push_back(std::move(keyframe));
   covisibility_.add(std::move(descriptor));
 }

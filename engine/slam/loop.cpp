@@ -29,4 +29,11 @@ const char* name_of(LoopVerdict verdict) {
   }
 }
 
+std::vector<std::pair<int, int>> links_of(const std::vector<Loop>& loops) {
+  std::vector<std::pair<int, int>> links;
+  for (const Loop& loop : loops)
+    if (loop.counts()) links.emplace_back(loop.measured.from, loop.measured.to);
+  return links;
+}
+
 }  // namespace surefield

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <utility>
+#include <vector>
+
 #include "engine/types/relative_pose.h"
 
 namespace surefield {
@@ -48,5 +51,8 @@ struct Loop {
   /// Whether it is taken for true.
   bool counts() const { return verdict == LoopVerdict::Accepted || verdict == LoopVerdict::Agreed; }
 };
+
+/// The pairs of keyframes, the older one first, of the loops that are taken for true.
+std::vector<std::pair<int, int>> links_of(const std::vector<Loop>& loops);
 
 }  // namespace surefield

@@ -2,6 +2,7 @@
 
 #include <memory>
 #include <opencv2/core.hpp>
+#include <utility>
 
 #include "engine/viewer/overlays.h"
 
@@ -29,6 +30,8 @@ struct ViewerScene {
   Trajectory truth;       ///< moved into the world of the trajectory; empty: unknown
   Trajectory keyframes;
   std::vector<int> window;  ///< positions in `keyframes` that were optimised together last
+  /// Pairs of positions in `keyframes` that are known to see one place, which the camera came back to.
+  std::vector<std::pair<int, int>> loops;
   SceneFrame frame;         ///< the newest, or the one that was chosen
   std::vector<FrameNumbers> numbers;
   std::string status;       ///< one line
@@ -41,6 +44,7 @@ struct OverlayChoice {
   bool truth = true;
   bool keyframes = true;
   bool window = true;  ///< its frusta, and the links from its newest keyframe to the others
+  bool loops = true;   ///< a link for each
   bool camera = true;
   double frustum = 0.08;  ///< metres
   bool on_top = false;    ///< also what the map hides

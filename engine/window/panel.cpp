@@ -141,7 +141,9 @@ void draw_lines_choice(OverlayChoice& overlay) {
   ImGui::Checkbox("camera", &overlay.camera);
   ImGui::Checkbox("keyframes", &overlay.keyframes);
   ImGui::SameLine();
-  ImGui::Checkbox("window and links", &overlay.window);
+  ImGui::Checkbox("window", &overlay.window);
+  ImGui::SameLine();
+  ImGui::Checkbox("loops", &overlay.loops);
   ImGui::Checkbox("also where the map hides them", &overlay.on_top);
   float frustum = static_cast<float>(overlay.frustum);
   if (ImGui::SliderFloat("cameras, m", &frustum, 0.01f, 1, "%.2f long", ImGuiSliderFlags_Logarithmic))

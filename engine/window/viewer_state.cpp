@@ -61,6 +61,8 @@ constexpr std::array kBindings = {
                [](State& s, Requests&) { s.overlay.keyframes = !s.overlay.keyframes; }},
     KeyBinding{GLFW_KEY_L, "L", "window of keyframes and its links on, off",
                [](State& s, Requests&) { s.overlay.window = !s.overlay.window; }},
+    KeyBinding{GLFW_KEY_J, "J", "loops on, off: places that the camera came back to",
+               [](State& s, Requests&) { s.overlay.loops = !s.overlay.loops; }},
     KeyBinding{GLFW_KEY_V, "V", "tracked camera on, off",
                [](State& s, Requests&) { s.overlay.camera = !s.overlay.camera; }},
     KeyBinding{GLFW_KEY_X, "X", "lines before the map, or behind it",

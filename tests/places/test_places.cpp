@@ -55,6 +55,19 @@ LocalFeatures clustered_features() {
 
 }  // namespace
 
+TEST_CASE("descriptors in bytes are as similar to each other as they were") {
+  const LocalFeatures features = root_sift(view(wall(1), 0));
+  REQUIRE(features.rows() > 50);
+  const FeatureBytes bytes = to_bytes(features);
+  const LocalFeatures back = to_floats(bytes);
+  CHECK((back.rowwise().norm().array() - 1).abs().maxCoeff() < 1e-5f);
+  for (Eigen::Index i = 0; i < features.rows(); ++i)
+    for (Eigen::Index j = 0; j <= i; ++j)
+      CHECK(std::abs(back.row(i).dot(back.row(j)) - features.row(i).dot(features.row(j))) < 0.01f);
+  CHECK(to_floats(FeatureBytes::Zero(1, kFeatureSize)).isZero(0));
+  CHECK(to_floats(FeatureBytes(0, kFeatureSize)).rows() == 0);
+}
+
 TEST_CASE("RootSIFT has rows of unit length, none where nothing stands out, the same for any threads") {
   const LocalFeatures features = root_sift(view(wall(1), 0));
   REQUIRE(features.rows() > 50);

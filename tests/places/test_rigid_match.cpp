@@ -12,11 +12,11 @@ using namespace surefield;
 
 namespace {
 
-/// A descriptor of unit length that no other is like.
-Eigen::RowVectorXf any_descriptor(RandomStream& random) {
-  Eigen::RowVectorXf descriptor(kFeatureSize);
-  for (int i = 0; i < kFeatureSize; ++i) descriptor[i] = static_cast<float>(random.uniform(0, 1));
-  return descriptor.normalized();
+/// A descriptor that no other is like.
+FeatureBytes any_descriptor(RandomStream& random) {
+  LocalFeatures descriptor(1, kFeatureSize);
+  for (int i = 0; i < kFeatureSize; ++i) descriptor(0, i) = static_cast<float>(random.uniform(0, 1));
+  return to_bytes(descriptor.normalized());
 }
 
 Pose some_pose() {
@@ -33,7 +33,7 @@ struct Two {
 /// `count` points seen from both, of which every third is matched wrongly: it is elsewhere in the second.
 Two see(int count, uint32_t seed, bool outliers = true) {
   RandomStream random(seed);
-  Two two{{LocalFeatures(count, kFeatureSize), {}}, {LocalFeatures(count, kFeatureSize), {}}};
+  Two two{{FeatureBytes(count, kFeatureSize), {}}, {FeatureBytes(count, kFeatureSize), {}}};
   for (int i = 0; i < count; ++i) {
     const Eigen::Vector3d point(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(1, 3));
     const Eigen::Vector3d error(random.uniform(-0.004, 0.004), random.uniform(-0.004, 0.004),
@@ -68,7 +68,7 @@ TEST_CASE("no motion is told where too little agrees") {
   CHECK(match_rigidly(two.from, two.to, kNoise, 11));
   CHECK_FALSE(match_rigidly(two.from, two.to, kNoise, 15));
   CHECK_FALSE(match_rigidly(see(40, 5).from, see(40, 6).to, kNoise, 10));
-  const PlacedFeatures none{LocalFeatures(0, kFeatureSize), {}};
+  const PlacedFeatures none{FeatureBytes(0, kFeatureSize), {}};
   CHECK_FALSE(match_rigidly(none, none, kNoise, 0));
   CHECK_FALSE(match_rigidly(two.from, none, kNoise, 0));
   CHECK_FALSE(match_rigidly(none, two.to, kNoise, 0));

@@ -1,4 +1,5 @@
 #include <cmath>
+#include <sstream>
 
 #include "engine/io/files.h"
 #include "engine/io/trajectory_file.h"
@@ -181,6 +182,59 @@ TEST_CASE("a report shows errors against the truth, and renders beside the senso
   CHECK(wrong.code == 2);
   CHECK(contains(wrong.err, "has no frame 7"));
   CHECK_FALSE(std::filesystem::exists(folder / "no.html"));
+}
+
+TEST_CASE("a report shows of a lost frame what the sensor saw, and of those after it what the map shows") {
+  const TemporaryFolder folder;
+  const Outcome run = surefield_command(short_run(folder / "out"), folder.path());
+  REQUIRE_MESSAGE(run.code == 0, run.err);
+  const std::string before = make_report({folder / "out", "--frames", "2"}, folder);
+  std::istringstream poses(read_file(folder / "out/trajectory.txt"));
+  std::string marked;
+  int row = 0;
+  for (std::string line; std::getline(poses, line);) {
+    if (line[0] != '#' && row++ == 1) marked += "# lost\n";
+    marked += line + "\n";
+  }
+  folder.write("out/trajectory.txt", marked);
+  nlohmann::json metrics = read_json(folder / "out/metrics.json");
+  metrics["per_frame"][1]["lost"] = true;
+  folder.write("out/metrics.json", metrics.dump());
+  forget_files(folder / "out");
+  const auto decibels = [](const std::string& html) {
+    const auto at = html.find("rendered (");
+    return at == std::string::npos ? "none" : html.substr(at, html.find(')', at) - at);
+  };
+  const std::string lost = make_report({folder / "out", "--frames", "1"}, folder);
+  CHECK(contains(lost, ">sensor</figcaption>"));
+  CHECK(decibels(lost) == "none");
+  CHECK(decibels(before) != "none");
+  CHECK(decibels(make_report({folder / "out", "--frames", "2"}, folder)) == decibels(before));
+}
+
+TEST_CASE("a report draws the places that looked known, and says how they were judged") {
+  const TemporaryFolder folder;
+  write_run(folder, "run", 100);
+  CHECK_FALSE(contains(make_report({folder / "run"}, folder), "<h2>Loops</h2>"));
+  folder.write("run/loops.csv",
+               "from,to,similarity,overlap,see_through,correction_cm,correction_deg,accepted,why,tx,ty,tz,qx,"
+               "qy,qz,qw\n3,60,0.1,0,0,0,0,0,few matches,0,0,0,0,0,0,1\n"
+               "0,90,0.5,0.81,0.004,12.5,1.25,1,accepted,0,0,0,0,0,0,1\n");
+  const std::string html = make_report({folder / "run"}, folder);
+  check_self_contained(html);
+  for (const char* part : {"2 places looked known: 1 accepted, 1 few matches.",
+                           "Loops along the principal axes", "taken for true",
+                           "<th>90 to 0</th><td class=\"best\">accepted</td><td>0.50</td><td>81 "
+                           "%</td><td>0.4 %</td><td>12.50</td>",
+                           "<th>60 to 3</th><td>few matches</td><td>0.10</td><td></td>"}) {
+    CAPTURE(part);
+    CHECK(contains(html, part));
+  }
+  folder.write("run/loops.csv", "from,to,accepted,tx,ty,tz,qx,qy,qz,qw\n0,1,x\n");
+  const Outcome damaged =
+      surefield_command({"report", folder / "run", "--out", folder / "no.html"}, folder.path());
+  CHECK(damaged.code == 2);
+  CHECK(contains(damaged.err, "loops.csv"));
 }
 
 TEST_CASE("report names what is no run") {

@@ -111,12 +111,15 @@ std::optional<std::size_t> position_of(const ReportRun& run, int index) {
   return std::nullopt;
 }
 
-/// Frames spread over those that all runs of a group have fed.
+/// Frames spread over those that all runs of a group know the pose of.
 std::vector<int> spread_frames(const std::vector<ReportRun>& runs, const RunGroup& group) {
   std::vector<int> common;
   for (const nlohmann::json& frame : runs[group.runs.front()].folder.metrics["per_frame"]) {
     const int index = frame.value("index", -1);
-    const auto has = [&](int run) { return position_of(runs[run], index).has_value(); };
+    const auto has = [&](int run) {
+      const auto position = position_of(runs[run], index);
+      return position && !runs[run].frame(*position).value("lost", false);
+    };
     if (std::all_of(group.runs.begin(), group.runs.end(), has)) common.push_back(index);
   }
   std::vector<int> indices;
@@ -139,22 +142,23 @@ class ImageBlock {
     assign_map(engine, run.folder);
     const std::vector<QualityView> views = views_of(run.folder, *run.dataset->recording);
     for (std::size_t k = 0; k < frames_.size() && !interrupted(); ++k) {
-      const auto position = position_of(run, frames_[k]);
-      if (!position) {
+      if (!position_of(run, frames_[k])) {
         throw InputError(
             run.folder.path,
             fmt::format("has no frame {}; --frames takes indices of frames that were fed", frames_[k]));
       }
-      const QualityView& view = views[*position];
       const LoadedFrame loaded = run.dataset->recording->load(frames_[k]);
-      if (!loaded.frame || !view.camera.world_to_camera.matrix().allFinite()) continue;
+      if (!loaded.frame) continue;
       SensorImages sensor = prepare(resize_frame(*loaded.frame, run.folder.number("/dataset/scale")));
       if (rows_[k].colour.empty()) {
         add_sensor(rows_[k], sensor);
         scales_[k] = sensor.depth_scale;
       }
       sensor.depth_scale = scales_[k];  // one for all runs, so that they can be compared
-      add_render(rows_[k], sensor, render(engine, view.camera), runs_.size() > 1 ? run.label : "rendered");
+      const auto view = std::find_if(views.begin(), views.end(),
+                                     [&](const QualityView& v) { return v.index == frames_[k]; });
+      if (view == views.end()) continue;  // it was lost: nobody knows from where to render
+      add_render(rows_[k], sensor, render(engine, view->camera), runs_.size() > 1 ? run.label : "rendered");
     }
   }
 

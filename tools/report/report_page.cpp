@@ -145,8 +145,9 @@ std::string report_page(const std::vector<ReportRun>& runs, const ImageOptions& 
       "initial-scale=1\">\n<title>{}</title>\n<style>{}</style>\n"
       "</head>\n<body>\n",
       escape_html("Surefield: " + heading(runs)), kStyle);
-  html += header(runs) + verdict_section(runs) + trajectory_section(runs) + progress_section(runs);
-  html += image_section(runs, options) + summary_section(runs) + configuration_section(runs);
+  html += header(runs) + verdict_section(runs) + trajectory_section(runs) + loop_section(runs);
+  html += progress_section(runs) + image_section(runs, options);
+  html += summary_section(runs) + configuration_section(runs);
   html +=
       fmt::format("<footer>Made by surefield {} ({}). Measures are defined in docs/evaluation.md.</footer>\n",
                   kVersion, kGitCommit);

@@ -27,6 +27,10 @@ std::string trajectory_section(const std::vector<ReportRun>& runs);
 /// Errors, tracking, size of the map and time, frame by frame.
 std::string progress_section(const std::vector<ReportRun>& runs);
 
+/// The places that looked known: which were taken for true, drawn between the keyframes that saw them, and
+/// what the corrections did to the error. Throws InputError for a loops.csv that is damaged.
+std::string loop_section(const std::vector<ReportRun>& runs);
+
 /// Which frames to show as images.
 struct ImageOptions {
   std::vector<int> frames;  ///< indices in the dataset; empty: a few spread ones

@@ -49,7 +49,7 @@ void assign_map(SplatEngine& engine, const RunFolder& run);
 /// Opens the dataset that the run was made from, or `instead` where that is not empty. Throws InputError.
 Dataset open_dataset_of(const RunFolder& run, const std::string& instead = "");
 
-/// The views of all frames of a run, with the intrinsics that its images had.
+/// The views of all frames of a run that were not lost, with the intrinsics that its images had.
 std::vector<QualityView> views_of(const RunFolder& run, const Recording& recording);
 
 }  // namespace surefield

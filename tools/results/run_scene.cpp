@@ -1,6 +1,10 @@
 #include "tools/results/run_scene.h"
 
+#include <algorithm>
+#include <map>
+
 #include "engine/eval/trajectory_metrics.h"
+#include "engine/session/loop_table.h"
 #include "engine/sources/frame_stream.h"
 #include "engine/types/error.h"
 
@@ -48,10 +52,31 @@ std::optional<SceneFrame> RunScene::load_frame(int position) const {
                     frame.depth};
 }
 
+/// The keyframes that are known to see one place, by their positions among all.
+std::vector<std::pair<int, int>> loops_of(const RunFolder& run) {
+  std::vector<std::pair<int, int>> links;
+  const std::filesystem::path file = run.path / "loops.csv";
+  if (!std::filesystem::exists(file)) return links;
+  std::map<int, double> stamps;  // of frames, which keyframes are among
+  for (std::size_t i = 0; i < run.trajectory.size(); ++i)
+    stamps[run.metrics["per_frame"][i].value("index", -1)] = run.trajectory[i].timestamp;
+  const auto keyframe_of = [&](int frame) {
+    const auto found =
+        std::find_if(run.keyframes.begin(), run.keyframes.end(), [&](const StampedPose& keyframe) {
+          return stamps.contains(frame) && keyframe.timestamp == stamps[frame];
+        });
+    return found == run.keyframes.end() ? -1 : static_cast<int>(found - run.keyframes.begin());
+  };
+  for (const StoredLoop& loop : read_loops(file))
+    if (loop.accepted) links.emplace_back(keyframe_of(loop.measured.from), keyframe_of(loop.measured.to));
+  return links;
+}
+
 RunScene read_run_scene(const std::filesystem::path& folder, const std::string& dataset) {
   RunScene result;
   result.run = read_run(folder);
   ViewerScene& scene = result.scene;
+  scene.loops = loops_of(result.run);
   try {
     result.dataset = open_dataset_of(result.run, dataset);
   } catch (const InputError& problem) {

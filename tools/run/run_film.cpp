@@ -93,6 +93,7 @@ cv::Mat RunFilm::paint(const Slam& slam) {
                           .truth = {},
                           .keyframes = slam.keyframes(),
                           .window = slam.window(),
+                          .loops = links_of(slam.loops()),
                           .frame = newest_,
                           .numbers = {},
                           .status = {}};

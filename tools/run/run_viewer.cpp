@@ -135,6 +135,7 @@ class ViewerObserver : public RunObserver {
     scene.trajectory = slam.trajectory();
     scene.keyframes = slam.keyframes();
     scene.window = slam.window();
+    scene.loops = links_of(slam.loops());
     scene.status = std::move(status);
     if (scene.trajectory.empty()) return scene;
     const StampedPose &oldest = scene.trajectory.front(), &newest = scene.trajectory.back();

@@ -26,6 +26,7 @@ namespace {
 
 constexpr const char *kOrbit = "orbit", *kFollow = "follow", *kTrajectory = "trajectory", *kTruth = "truth";
 constexpr const char *kKeyframes = "keyframes", *kCamera = "camera", *kSensor = "sensor";
+constexpr const char* kLoops = "loops";
 constexpr Intrinsics kWideLens{.width = 960, .height = 540, .fx = 780, .fy = 780, .cx = 479.5, .cy = 269.5};
 
 /// One picture: from where, and of which moment of the run.
@@ -253,6 +254,7 @@ class Filming {
                             .truth = shows_thing(options_, kTruth),
                             .keyframes = shows_thing(options_, kKeyframes),
                             .window = false,
+                            .loops = shows_thing(options_, kLoops),
                             .camera = shows_thing(options_, kCamera)});
   }
 
@@ -272,7 +274,7 @@ std::vector<std::string> view_paths() {
 }
 
 std::vector<std::string> shown_things() {
-  return {kTrajectory, kTruth, kKeyframes, kCamera, kSensor};
+  return {kTrajectory, kTruth, kKeyframes, kLoops, kCamera, kSensor};
 }
 
 int render_path(const RenderOptions& options) {
