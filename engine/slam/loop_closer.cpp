@@ -24,9 +24,14 @@ void LoopCloser::begin() {
 std::optional<int> LoopCloser::close(int before, const PoseCovariance& covariance) {
   odometer_.add(keyframes_, before);
   add_odometry(before, covariance);
+  if (keyframes_.newest() < rest_until_) return std::nullopt;
+  return follow(look());
+}
+
+std::optional<int> LoopCloser::follow(const std::vector<Loop>& judged) {
+  loops_.insert(loops_.end(), judged.begin(), judged.end());
   const int newest = keyframes_.newest();
-  if (newest < rest_until_) return std::nullopt;
-  look();
+  if (!judged.empty() && judged.back().verdict == LoopVerdict::Agreed) rest_until_ = newest + kRest;
   const auto both = confirmed();
   if (!both) return std::nullopt;
   const auto [first, second] = *both;
@@ -48,13 +53,14 @@ void LoopCloser::add_odometry(int before, const PoseCovariance& covariance) {
 }
 
 /// Judges the candidates, the best first, until one is right.
-void LoopCloser::look() {
+std::vector<Loop> LoopCloser::look() const {
+  std::vector<Loop> judged;
   for (const LoopCandidate& candidate : find_candidates(keyframes_, odometer_)) {
-    loops_.push_back(check_.judge(candidate));
-    const LoopVerdict verdict = loops_.back().verdict;
-    if (verdict == LoopVerdict::Agreed) rest_until_ = keyframes_.newest() + kRest;
-    if (verdict == LoopVerdict::Agreed || verdict == LoopVerdict::Waiting) return;
+    judged.push_back(check_.judge(candidate));
+    const LoopVerdict verdict = judged.back().verdict;
+    if (verdict == LoopVerdict::Agreed || verdict == LoopVerdict::Waiting) break;
   }
+  return judged;
 }
 
 std::optional<std::pair<std::size_t, std::size_t>> LoopCloser::confirmed() const {

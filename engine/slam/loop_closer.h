@@ -24,6 +24,9 @@ class LoopCloser {
   /// with this covariance. Looks for places that it sees again; where it has come back to one that the poses
   /// do not lead to, corrects poses and map. Returns the keyframe that it has come back to then.
   std::optional<int> close(int before, const PoseCovariance& covariance);
+  /// The second half of that, with what was judged of the newest keyframe: where the last of these says what
+  /// one of a keyframe before it has said, corrects poses and map, unless the other measurements contradict.
+  std::optional<int> follow(const std::vector<Loop>& judged);
 
   /// All that was judged, in the order of the newer keyframe.
   const std::vector<Loop>& loops() const { return loops_; }
@@ -32,7 +35,7 @@ class LoopCloser {
 
  private:
   void add_odometry(int before, const PoseCovariance& covariance);
-  void look();
+  std::vector<Loop> look() const;
   /// A place that was recognised twice, the same correction both times: the positions of both in loops_.
   std::optional<std::pair<std::size_t, std::size_t>> confirmed() const;
   bool correct();

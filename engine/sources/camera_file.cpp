@@ -9,6 +9,8 @@
 
 #include "engine/config/config.h"
 #include "engine/io/images.h"
+#include "engine/io/json_file.h"
+#include "engine/io/text_file.h"
 #include "engine/types/error.h"
 
 namespace surefield {
@@ -36,6 +38,10 @@ const std::vector<KnownCamera>& known_cameras() {
         {RadialTangential, {0.2312, -0.7849, -0.0033, -0.0001, 0.9172}},
         kTumDepthUnit}},
       {"freiburg3", {{640, 480, 535.4, 539.2, 320.1, 247.6}, {}, kTumDepthUnit}},
+      {"bonn",
+       {{640, 480, 542.822841, 542.576870, 315.593520, 237.756098},
+        {RadialTangential, {0.039903, -0.099343, -0.000730, -0.000144, 0}},
+        kTumDepthUnit}},
       {"icl", {{640, 480, 481.2, 480.0, 319.5, 239.5}, {}, kTumDepthUnit}},
   };
   return cameras;
@@ -86,6 +92,37 @@ RecordedCamera read_camera_file(const std::filesystem::path& file) {
   if (std::all_of(coefficients.begin(), coefficients.end(), [](double value) { return value == 0; }) &&
       camera.distortion.model == LensDistortion::Model::RadialTangential)
     coefficients.clear();
+  return camera;
+}
+
+RecordedCamera read_open3d_camera(const std::filesystem::path& file) {
+  const JsonObject json(file);
+  const char* const kMatrix = "intrinsic_matrix";
+  const nlohmann::json& matrix = json.at(kMatrix);
+  const auto is_number = [](const nlohmann::json& value) { return value.is_number(); };
+  if (!matrix.is_array() || matrix.size() != 9 || !std::all_of(matrix.begin(), matrix.end(), is_number))
+    json.fail(kMatrix, "is no list of nine numbers");
+  const auto m = matrix.get<std::vector<double>>();
+  if (!(m[0] > 0) || !(m[4] > 0) || m[2] != 0 || m[5] != 0 || m[8] != 1)
+    json.fail(kMatrix, "is no camera matrix, column after column: fx 0 0 0 fy 0 cx cy 1");
+  RecordedCamera camera;
+  camera.intrinsics = {static_cast<int>(json.positive("width")),
+                       static_cast<int>(json.positive("height")),
+                       m[0],
+                       m[4],
+                       m[6],
+                       m[7]};
+  camera.depth_unit = json.has("depth_scale") ? 1 / json.positive("depth_scale") : kMillimetre;
+  return camera;
+}
+
+RecordedCamera read_eth3d_camera(const std::filesystem::path& file) {
+  const auto numbers = read_numbers(file);
+  if (!numbers || numbers->size() != 4 || !((*numbers)[0] > 0) || !((*numbers)[1] > 0))
+    throw InputError(file, "expected \"fx fy cx cy\", pixels");
+  RecordedCamera camera;
+  camera.intrinsics = {0, 0, (*numbers)[0], (*numbers)[1], (*numbers)[2], (*numbers)[3]};
+  camera.depth_unit = kTumDepthUnit;
   return camera;
 }
 

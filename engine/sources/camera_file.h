@@ -37,11 +37,21 @@ struct RecordedCamera {
 /// wrong.
 RecordedCamera read_camera_file(const std::filesystem::path& file);
 
+/// Reads the calibration that Open3D's recorders leave, camera_intrinsic.json or intrinsic.json: "width",
+/// "height", "intrinsic_matrix" (nine numbers, column after column) and, where it is not 1000, "depth_scale",
+/// the steps of a metre. Throws InputError naming the key.
+RecordedCamera read_open3d_camera(const std::filesystem::path& file);
+
+/// Reads the calibration of ETH3D's SLAM benchmark, calibration.txt: "fx fy cx cy". The depth unit is TUM's;
+/// the size is not said. Throws InputError.
+RecordedCamera read_eth3d_camera(const std::filesystem::path& file);
+
 /// A published calibration by its name in known_camera_names(). Throws InputError where there is none of that
 /// name.
 RecordedCamera known_camera(const std::string& name);
 
-/// "freiburg1", "freiburg2", "freiburg3" (TUM's benchmark) and "icl" (ICL-NUIM).
+/// "freiburg1", "freiburg2", "freiburg3" (TUM's benchmark), "bonn" (Bonn's RGB-D Dynamic Dataset) and "icl"
+/// (ICL-NUIM).
 std::vector<std::string> known_camera_names();
 
 }  // namespace surefield

@@ -178,6 +178,22 @@ void read_frames(const std::filesystem::path& folder, StoredSequence& sequence) 
   }
 }
 
+/// The camera that the recorder of Open3D has left, if it was that.
+std::optional<std::filesystem::path> open3d_camera(const std::filesystem::path& folder) {
+  for (const char* name : {"camera_intrinsic.json", "intrinsic.json"})
+    if (file_exists(folder / name)) return folder / name;
+  return std::nullopt;
+}
+
+void read_plain_camera(const std::filesystem::path& folder, const DatasetOptions& options,
+                       StoredSequence& sequence) {
+  if (const auto own = own_camera(folder, options, sequence)) return use_camera(*own, sequence);
+  const std::filesystem::path file = *open3d_camera(folder);
+  use_camera(read_open3d_camera(file), sequence);
+  sequence.assumptions.push_back(fmt::format("the camera is that of Open3D's {}, depth in steps of {:g} m",
+                                             file.filename().string(), sequence.depth_encoding.unit));
+}
+
 }  // namespace
 
 bool is_plain(const std::filesystem::path& folder) {
@@ -191,13 +207,13 @@ StoredSequence read_plain_sequence(const std::filesystem::path& folder, const Da
   StoredSequence sequence;
   sequence.name = folder.filename().string();
   sequence.format = "plain";
-  if (options.camera.empty() && !file_exists(folder / kCameraFile)) {
+  if (options.camera.empty() && !file_exists(folder / kCameraFile) && !open3d_camera(folder)) {
     throw InputError(folder,
-                     "camera.yaml is missing: fx, fy, cx, cy and depth_unit, see docs/datasets.md (and "
-                     "a folder exported from ScanNet has intrinsic/)");
+                     "camera.yaml is missing: fx, fy, cx, cy and depth_unit, see docs/datasets.md (or "
+                     "Open3D's camera_intrinsic.json; and a folder exported from ScanNet has intrinsic/)");
   }
   read_frames(folder, sequence);
-  use_camera(*own_camera(folder, options, sequence), sequence);
+  read_plain_camera(folder, options, sequence);
   const std::filesystem::path poses = folder / "poses.txt";
   if (file_exists(poses))
     read_truth(sequence, [&] { return read_any_trajectory(poses, {.stamps = stamps_of(sequence)}).poses; });

@@ -23,6 +23,7 @@ constexpr double kMaxStampDifference = 0.02;  // seconds between the colour and 
 
 /// The camera of the benchmark that the name of a sequence tells; empty where it tells none.
 std::string camera_by_name(const std::string& name) {
+  if (name.find("bonn") != std::string::npos) return "bonn";
   for (const std::string number : {"1", "2", "3"})
     for (const char* prefix : {"freiburg", "fr"})
       if (name.find(prefix + number) != std::string::npos) return "freiburg" + number;
@@ -41,17 +42,26 @@ void read_tum_calibration(const std::filesystem::path& folder, const DatasetOpti
     sequence.depth_encoding.unit = 1 / camera.positive("scale");
     return;
   }
+  if (const auto eth3d = folder / "calibration.txt"; file_exists(eth3d)) {
+    use_camera(read_eth3d_camera(eth3d), sequence);
+    sequence.assumptions.push_back(
+        "calibration.txt is ETH3D's, its pixel centres at integers, and depth in 1/5000 m");
+    return;
+  }
   const std::string known = camera_by_name(sequence.name);
   if (known.empty()) {
     throw InputError(
         folder,
         "the camera is unknown: the folder's name has none of freiburg1, freiburg2, freiburg3 (or fr1, "
-        "fr2, fr3), and there is no camera.yaml with width, height, fx, fy, cx, cy, depth_unit (nor "
-        "cam_params.json with w, h, fx, fy, cx, cy, scale under \"camera\"); write one, or name the camera "
+        "fr2, fr3) and bonn, and there is no camera.yaml with width, height, fx, fy, cx, cy, depth_unit (nor "
+        "cam_params.json with w, h, fx, fy, cx, cy, scale under \"camera\", nor ETH3D's calibration.txt); "
+        "write one, or name the camera "
         "(surefield run --assume-camera)");
   }
   use_camera(known_camera(known), sequence);
-  sequence.assumptions.push_back(fmt::format("the camera is TUM's {}, by the folder's name", known));
+  sequence.assumptions.push_back(
+      fmt::format("the camera is {}, by the folder's name",
+                  known == "bonn" ? "that of Bonn's sequences" : "TUM's " + known));
 }
 
 struct ListedImage {

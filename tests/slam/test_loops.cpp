@@ -161,3 +161,29 @@ TEST_CASE("poses that are right stay as they are when a place is seen again") {
   for (int k = 0; k <= walk.keyframes.newest(); ++k)
     CHECK(walk.keyframes.world_to_camera(k).matrix() == walk.true_pose(k * kStep).matrix());
 }
+
+TEST_CASE("a false loop is taken back, and poses and map are what they were") {
+  Walk walk;
+  for (int frame = 0; frame < turn().count(); frame += kStep) walk.add(frame, walk.true_pose(frame));
+  const GaussianCloud before = walk.engine.map();
+  // Half a turn away, by what two keyframes in a row say: the camera would be where it was at first.
+  const int newest = walk.keyframes.newest();
+  const auto false_loop = [&](int to) {
+    Loop loop{.measured = {.from = 20,
+                           .to = to,
+                           .pose = Pose::Identity(),
+                           .information = 1e4 * Matrix6::Identity()},
+              .verdict = LoopVerdict::Waiting};
+    loop.measured.pose =
+        walk.keyframes.world_to_camera(to) * walk.keyframes.world_to_camera(newest).inverse();
+    return loop;
+  };
+  CHECK_FALSE(walk.closer.follow({false_loop(newest - 1)}));
+  CHECK_FALSE(walk.closer.follow({false_loop(newest)}));
+  const std::vector<Loop>& loops = walk.closer.loops();
+  CHECK(loops[loops.size() - 1].verdict == LoopVerdict::Contradicted);
+  CHECK(loops[loops.size() - 2].verdict == LoopVerdict::Contradicted);
+  for (int k = 0; k <= newest; ++k)
+    CHECK(walk.keyframes.world_to_camera(k).matrix() == walk.true_pose(k * kStep).matrix());
+  CHECK(walk.engine.map().means == before.means);
+}

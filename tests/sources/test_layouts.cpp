@@ -211,6 +211,73 @@ TEST_CASE("plain: what is missing or wrong is named") {
   CHECK(contains(open_error(folder), "none of the 2 colour images"));
 }
 
+TEST_CASE("plain: a folder of Open3D's recorders brings its camera along") {
+  for (const char* name : {"camera_intrinsic.json", "intrinsic.json"}) {
+    const TemporaryFolder folder;
+    write_colour(folder, "color/000000.jpg");
+    write_depth(folder, "depth/000000.png", 500);
+    folder.write(name,
+                 R"({"width": 40, "height": 30, "intrinsic_matrix": [31, 0, 0, 0, 32, 0, 19.5, 14.5, 1]})");
+    const Dataset dataset = open_dataset(folder.path());
+    CHECK(dataset.recording->format() == "plain");
+    const Intrinsics k = dataset.recording->intrinsics();
+    CHECK(k.width == 40);
+    CHECK(k.fx == 31);
+    CHECK(k.fy == 32);
+    CHECK(k.cx == 19.5);
+    CHECK(k.cy == 14.5);
+    CHECK(dataset.recording->load(0).frame->depth.at<float>(3, 3) == 0.5f);
+    REQUIRE(dataset.recording->assumptions().size() == 1);
+    CHECK(contains(dataset.recording->assumptions()[0], name));
+    folder.write(name, R"({"width": 40, "height": 30, "depth_scale": 250,
+                           "intrinsic_matrix": [31, 0, 0, 0, 32, 0, 19.5, 14.5, 1]})");
+    CHECK(open_dataset(folder.path()).recording->load(0).frame->depth.at<float>(3, 3) == 2);
+    folder.write("camera.yaml", kCamera);  // one's own goes before it
+    CHECK(open_dataset(folder.path()).recording->intrinsics().fx == 30);
+  }
+}
+
+TEST_CASE("plain: what is wrong with Open3D's camera is named") {
+  const TemporaryFolder folder;
+  write_colour(folder, "color/000000.jpg");
+  write_depth(folder, "depth/000000.png", 500);
+  const auto error = [&](const char* json) {
+    folder.write("camera_intrinsic.json", json);
+    return open_error(folder);
+  };
+  CHECK(contains(error("{}"), "intrinsic_matrix"));
+  CHECK(contains(error(R"({"intrinsic_matrix": [1, 2]})"), "nine numbers"));
+  CHECK(
+      contains(error(R"({"intrinsic_matrix": [31, 0, 19.5, 0, 32, 14.5, 0, 0, 1]})"), "column after column"));
+  CHECK(
+      contains(error(R"({"width": 40, "intrinsic_matrix": [31, 0, 0, 0, 32, 0, 19.5, 14.5, 1]})"), "height"));
+}
+
+TEST_CASE("TUM's lists with ETH3D's calibration.txt, and with the camera of Bonn's recordings") {
+  const TemporaryFolder folder;
+  const auto write_lists = [&](const std::string& name) {
+    write_colour(folder, name + "/rgb/1.png");
+    write_depth(folder, name + "/depth/1.png", 5000);
+    folder.write(name + "/rgb.txt", "1.0 rgb/1.png\n");
+    folder.write(name + "/depth.txt", "1.0 depth/1.png\n");
+  };
+  write_lists("table_3");
+  CHECK(contains(input_error([&] { open_dataset(folder / "table_3"); }), "calibration.txt"));
+  folder.write("table_3/calibration.txt", "726.2 726.3 20.5 15.25\n");
+  const Dataset eth3d = open_dataset(folder / "table_3");
+  CHECK(eth3d.recording->format() == "tum");
+  CHECK(eth3d.recording->intrinsics().fx == 726.2);
+  CHECK(eth3d.recording->intrinsics().cy == 15.25);
+  CHECK(eth3d.recording->intrinsics().width == 40);
+  CHECK(eth3d.recording->load(0).frame->depth.at<float>(3, 3) == 1);
+  folder.write("table_3/calibration.txt", "726.2 726.3 20.5\n");
+  CHECK(contains(input_error([&] { open_dataset(folder / "table_3"); }), "fx fy cx cy"));
+  write_lists("rgbd_bonn_balloon");
+  const Dataset bonn = open_dataset(folder / "rgbd_bonn_balloon");
+  CHECK(bonn.recording->intrinsics().fx == 542.822841);
+  CHECK(contains(bonn.recording->assumptions()[0], "bonn"));
+}
+
 TEST_CASE("a folder that fits two layouts is not guessed at") {
   const TemporaryFolder folder("fr3_mixed");
   write_plain(folder);
