@@ -66,6 +66,7 @@ nlohmann::ordered_json frame_json(const FrameReport& frame) {
           {"tracking_ms", frame.tracking_ms},
           {"mapping_iterations", frame.mapping_iterations},
           {"mapping_ms", frame.mapping_ms},
+          {"loops_ms", frame.loops_ms},
           {"gaussians", frame.gaussians},
           {"uncertain_gaussians", frame.uncertain_gaussians},
           {"device_gaussians", frame.device_gaussians},

@@ -27,6 +27,7 @@ constexpr int kMatched = 10;        // keyframes that a frame's features are com
 // Of all keyframes, those that look most like a frame that is lost, and from how many of them it is tracked.
 constexpr int kPlaces = 10;
 constexpr std::size_t kTriedPlaces = 3;
+constexpr int kFewestThere = 6;  // features that tell where to begin: the map judges the pose then
 
 TrackingSettings made_patient(TrackingSettings tracking) {
   tracking.adam.iterations *= 2;
@@ -110,6 +111,16 @@ void CameraTracker::track(FrameHandle image, FrameFeatures& features, const Pose
     if (state_of(result) == TrackingState::Lost)
       result = find_again(image, features, patient, approach, result, report);
   }
+  tell(result, report);
+}
+
+void CameraTracker::locate(FrameHandle image, FrameFeatures& features, const Approach& approach,
+                           FrameReport& report) const {
+  tell(find_again(image, features, made_patient(settings_.tracking), approach, {}, report), report);
+}
+
+/// Judges what was found. The pose of a lost frame is the last one that was known.
+void CameraTracker::tell(const TrackingResult& result, FrameReport& report) const {
   report.state = state_of(result);
   report.world_to_camera =
       report.lost() ? history_.world_to_camera(history_.size() - 1) : result.world_to_camera;
@@ -150,7 +161,7 @@ TrackingResult CameraTracker::find_again(FrameHandle image, FrameFeatures& featu
   std::vector<Place> places;
   const PlacedFeatures& own = features.get();
   for (int k : best_apart(keyframes_.places().similarities(to_floats(own.descriptors)), kPlaces, 0, 0)) {
-    const auto match = match_rigidly(keyframes_[k].features, own, noise_of(settings_.sensor), kFewestInliers);
+    const auto match = match_rigidly(keyframes_[k].features, own, noise_of(settings_.sensor), kFewestThere);
     if (match) places.push_back({k, match->inliers, match->from_to * keyframes_.world_to_camera(k)});
   }
   std::stable_sort(places.begin(), places.end(),

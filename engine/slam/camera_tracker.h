@@ -48,6 +48,10 @@ class CameraTracker {
   /// what it says of tracking. The pose of a lost frame is the last one that was known. Changes nothing else.
   void track(FrameHandle image, FrameFeatures& features, const Pose& start, const Approach& approach,
              FrameReport& report) const;
+  /// Finds the camera in the whole map by the frame alone, wherever it was before; the report says that it is
+  /// lost where no pose is to be trusted. Changes nothing else.
+  void locate(FrameHandle image, FrameFeatures& features, const Approach& approach,
+              FrameReport& report) const;
   /// Whether the map explains so much less of a frame's depth than of that of the first frame tracked after
   /// the last keyframe that there should be another.
   bool sees_unmapped(const FrameReport& report) const;
@@ -68,6 +72,7 @@ class CameraTracker {
   TrackingResult align(FrameHandle image, const Pose& start, const TrackingSettings& tracking) const;
   TrackingResult retry(FrameHandle image, FrameFeatures& features, const TrackingSettings& tracking,
                        TrackingResult best, FrameReport& report) const;
+  void tell(const TrackingResult& result, FrameReport& report) const;
   TrackingResult find_again(FrameHandle image, FrameFeatures& features, const TrackingSettings& tracking,
                             const Approach& approach, TrackingResult best, FrameReport& report) const;
   std::optional<Pose> pose_by_features(FrameFeatures& features) const;

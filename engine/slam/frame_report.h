@@ -42,7 +42,8 @@ struct FrameReport {
   double tracking_ms = 0;
   int mapping_iterations = 0;
   double mapping_ms = 0;
-  uint32_t gaussians = 0;            ///< in the map after this frame
+  double loops_ms = 0;     ///< of a keyframe: looking for its place among those seen before, and correcting
+  uint32_t gaussians = 0;  ///< in the map after this frame
   uint32_t uncertain_gaussians = 0;  ///< on the device when the frame's mapping judged them
   uint32_t device_gaussians = 0;     ///< of these, on the device
   uint64_t device_bytes = 0;         ///< device memory in use after this frame

@@ -50,6 +50,18 @@ FrameReport Slam::feed(const Frame& taken, const Tracked& tracked) {
   return report;
 }
 
+FrameReport Slam::locate(const Frame& taken) {
+  Implementation& s = *implementation_;
+  const Turn turn(s);
+  if (s.broken)
+    throw StateError("an error has left the map half done, so nothing is found in it: " + *s.broken);
+  if (s.history.empty()) throw StateError("there is no map yet to find a frame in; feed one first");
+  s.check_images(taken);
+  Frame frame = taken;
+  frame.depth_after = 0;  // nobody knows how a camera moves that may be anywhere
+  return s.locate(s.within_reach(frame));
+}
+
 void Slam::finish() {
   Implementation& s = *implementation_;
   Turn turn(s);

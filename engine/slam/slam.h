@@ -27,10 +27,10 @@ struct Frame;
 ///
 /// SlamThread (slam_thread.h) feeds without waiting for the map.
 ///
-/// Threads: every method may be called from any thread. feed(), finish(), change() and on_revision() take
-/// turns; stop_mapping() does not wait. All others only read; they wait for a frame in work and are let in,
-/// in the order in which they ask, between frames and while feed() or finish() runs a function of the caller.
-/// What is returned is a copy.
+/// Threads: every method may be called from any thread. feed(), locate(), finish(), change() and
+/// on_revision() take turns; stop_mapping() does not wait. All others only read; they wait for a frame in
+/// work and are let in, in the order in which they ask, between frames and while feed() or finish() runs a
+/// function of the caller. What is returned is a copy.
 ///
 /// Errors: what derives from Error (engine/types/error.h), or std::bad_alloc. Where feed() or finish() throws
 /// before mapping has begun, nothing has changed: the frame was not fed, and the next may be. Where mapping
@@ -62,6 +62,12 @@ class Slam {
   /// camera's exposure has yet to settle: frames to pass over. Throws StateError where no frame may be fed
   /// any more, and gpu::Error; see above for what has changed then.
   FrameReport feed(const Frame& frame, const Tracked& tracked = {});
+
+  /// Finds where a frame was taken by what the whole map shows, from nothing but the frame, wherever the
+  /// camera was before: for a device that is switched on in a place that is mapped, also after finish().
+  /// Changes neither map nor trajectory. The report's pose is world to camera; it is lost() where no place is
+  /// certain. Throws as feed() does, and StateError where there is no map yet.
+  FrameReport locate(const Frame& frame);
 
   /// Call after the last frame: unless it is a keyframe, or its pose is not good, it becomes one, so that the
   /// map shows all that was seen. If the light has changed, the map is given the exposure that most frames

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <chrono>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -138,6 +139,17 @@ Sighting Slam::Implementation::sight(const Frame& frame, ColourGrid grid, FrameR
   return sighting;
 }
 
+FrameReport Slam::Implementation::locate(const Frame& frame) {
+  FrameReport report{.index = frame.index, .timestamp = frame.timestamp};
+  report.gains = history.last_report().gains;
+  const HeldFrame image = hold(frame, report.gains, history.world_to_camera(history.size() - 1));
+  const std::vector<Eigen::Vector3f> points = sample_points(frame, intrinsics);
+  FrameFeatures features(frame, intrinsics);
+  tracker.locate(
+      image.handle(), features, [&](const Pose& pose) { upkeep.approach(points, pose); }, report);
+  return report;
+}
+
 /// The frame for tracking: its images with the colours times these gains, taken from about `predicted`.
 HeldFrame Slam::Implementation::hold(const Frame& frame, const Eigen::Vector3f& gains,
                                      const Pose& predicted) {
@@ -209,7 +221,10 @@ void Slam::Implementation::map_keyframe(const Frame& frame, Sighting sighting) {
 
 void Slam::Implementation::close_loop() {
   FrameReport& report = history.last_report();
+  const auto begin = std::chrono::steady_clock::now();
   const auto back_at = loops.close(history.last_tracked_after(), report.covariance);
+  report.loops_ms =
+      std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
   if (!back_at) return;
   upkeep.optimise(upkeep.plan_both(*back_at), {}, report);
 }

@@ -83,6 +83,8 @@ struct Slam::Implementation {
   /// Any other: predicts its pose, brings it to the exposure of the map, tracks it and decides whether it
   /// becomes a keyframe.
   Sighting sight(const Frame& frame, ColourGrid grid, FrameReport& report);
+  /// Finds a frame in the whole map.
+  FrameReport locate(const Frame& frame);
   HeldFrame hold(const Frame& frame, const Eigen::Vector3f& gains, const Pose& predicted);
   /// A frame with its colours times these gains, and what was saturated as bright as the map shows it from
   /// `pose`.

@@ -137,7 +137,7 @@ TEST_CASE("frames.csv says of each frame what metrics.json says") {
         "fraction,"
         "explained,seen_through,moved,sigma_cm,sigma_deg,covariance,tracking_"
         "iterations,tracking_ms,"
-        "mapping_iterations,mapping_ms,gaussians,uncertain_gaussians,device_gaussians,"
+        "mapping_iterations,mapping_ms,loops_ms,gaussians,uncertain_gaussians,device_gaussians,"
         "device_mb");
   for (const auto& frame : frames) {
     REQUIRE(std::getline(csv, line));
