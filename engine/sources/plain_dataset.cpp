@@ -197,7 +197,7 @@ StoredSequence read_plain_sequence(const std::filesystem::path& folder, const Da
                      "a folder exported from ScanNet has intrinsic/)");
   }
   read_frames(folder, sequence);
-  use_camera(*own_camera(folder, options, sequence), sequence);
+  use_camera(*own_camera(folder, options, sequence.assumptions), sequence);
   const std::filesystem::path poses = folder / "poses.txt";
   if (file_exists(poses))
     read_truth(sequence, [&] { return read_any_trajectory(poses, {.stamps = stamps_of(sequence)}).poses; });
