@@ -49,7 +49,7 @@ function(surefield_library room)
                              $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
   set_target_properties(surefield_${room} PROPERTIES EXPORT_NAME ${room} VERSION ${PROJECT_VERSION}
                         SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR} INSTALL_RPATH "$ORIGIN")
-  if(SUREFIELD_FUZZERS AND room MATCHES "^(io|json|config|formats|sources)$")
+  if(SUREFIELD_FUZZERS AND room MATCHES "^(io|json|config|formats|logs|sources)$")
     target_compile_options(surefield_${room} PRIVATE -fsanitize=fuzzer-no-link)
     target_link_options(surefield_${room} INTERFACE -fsanitize=fuzzer-no-link)
   endif()

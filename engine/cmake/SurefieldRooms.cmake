@@ -4,7 +4,8 @@ set(surefield_rests_on_types)
 set(surefield_rests_on_io types)
 set(surefield_rests_on_config types io)
 set(surefield_rests_on_formats types io)
-set(surefield_rests_on_sources types io config)
+set(surefield_rests_on_logs types io)
+set(surefield_rests_on_sources types io config logs)
 set(surefield_rests_on_mesh types io formats)
 set(surefield_rests_on_eval types io formats sources)
 set(surefield_rests_on_report types)
@@ -18,9 +19,9 @@ set(surefield_rests_on_session types io config formats sources splat slam)
 set(surefield_rests_on_synth types io formats sources gpu)
 set(surefield_rests_on_viewer types io formats gpu splat)
 set(surefield_rests_on_window types io config formats gpu splat viewer)
-set(surefield_rests_on_tools types io config formats sources mesh eval report gpu primitives splat places graph slam session synth
+set(surefield_rests_on_tools types io config formats logs sources mesh eval report gpu primitives splat places graph slam session synth
     viewer window)
-set(surefield_all_rooms types io config formats sources mesh eval report gpu primitives splat places graph slam session synth viewer
+set(surefield_all_rooms types io config formats logs sources mesh eval report gpu primitives splat places graph slam session synth viewer
     window tools)
 
 # surefield_resolve_rooms(<variable> <room>...): these rooms and all that they rest on, in the order above; "all" is every one.

@@ -39,4 +39,10 @@ std::string pixels_of_png(std::string_view bytes, const std::filesystem::path& n
 /// where it is damaged or cut off; stray bytes between its parts, which some cameras write, are no damage.
 cv::Mat decode_jpeg(std::string_view bytes, const std::filesystem::path& name);
 
+/// The numbers of a 16-bit depth image with one channel, CV_16UC1. Throws InputError, naming `name`, where
+/// the bytes are anything else, damaged, or an image of another size than `expected`, where that is not
+/// empty.
+cv::Mat decode_depth_steps(const std::string& bytes, const std::filesystem::path& name,
+                           cv::Size expected = {});
+
 }  // namespace surefield

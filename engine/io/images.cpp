@@ -89,15 +89,19 @@ cv::Mat decode_colour(const std::string& bytes, const std::filesystem::path& nam
   return image;
 }
 
-cv::Mat read_depth(const std::filesystem::path& file, const DepthEncoding& encoding, cv::Size expected) {
-  const cv::Mat stored = decode(file, read_regular_file(file), cv::IMREAD_UNCHANGED, expected);
+cv::Mat decode_depth_steps(const std::string& bytes, const std::filesystem::path& file, cv::Size expected) {
+  cv::Mat stored = decode(file, bytes, cv::IMREAD_UNCHANGED, expected);
   if (stored.type() != CV_16UC1) {
     throw InputError(
         file, fmt::format("is no depth image: 16 bits and one channel are needed, it has {} bits "
                           "and {} channel{}",
                           8 * stored.elemSize1(), stored.channels(), stored.channels() == 1 ? "" : "s"));
   }
-  return depth_in_metres(stored, encoding);
+  return stored;
+}
+
+cv::Mat read_depth(const std::filesystem::path& file, const DepthEncoding& encoding, cv::Size expected) {
+  return depth_in_metres(decode_depth_steps(read_regular_file(file), file, expected), encoding);
 }
 
 cv::Mat depth_in_metres(const cv::Mat& stored, const DepthEncoding& encoding) {

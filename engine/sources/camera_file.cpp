@@ -47,51 +47,84 @@ const std::vector<KnownCamera>& known_cameras() {
   return cameras;
 }
 
-/// The number of coefficients that OpenCV has a model for, so that no list of another length is taken for
-/// one.
-void check_distortion(const std::filesystem::path& file, const LensDistortion& distortion) {
-  const std::size_t count = distortion.coefficients.size();
-  if (distortion.model == LensDistortion::Model::Fisheye && count != 4 && count != 0) {
-    throw InputError(file,
-                     fmt::format("distortion has {} numbers, a fisheye lens has 4: k1 k2 k3 k4", count));
+/// The keys of one camera: those of the file itself, or of a section of it.
+struct CameraKeys {
+  const std::filesystem::path& file;
+  std::string section;  ///< with its dot
+  Intrinsics& camera;
+  LensDistortion& distortion;
+
+  void bind(ConfigSchema& schema) {
+    camera.fx = camera.fy = camera.cx = camera.cy = kMissing;
+    schema.add(section + "width", &camera.width, Range{1, kLargestSide});
+    schema.add(section + "height", &camera.height, Range{1, kLargestSide});
+    schema.add(section + "fx", &camera.fx, Range{1e-3, kLargestPixel});
+    schema.add(section + "fy", &camera.fy, Range{1e-3, kLargestPixel});
+    schema.add(section + "cx", &camera.cx, Range{-kLargestPixel, kLargestPixel});
+    schema.add(section + "cy", &camera.cy, Range{-kLargestPixel, kLargestPixel});
+    schema.add(section + "distortion", &distortion.coefficients, Range{-1e3, 1e3}, {0, 4, 5, 8, 12, 14});
+    schema.add(section + "distortion_model", &distortion.model,
+               Choices<LensDistortion::Model>{{"radtan", LensDistortion::Model::RadialTangential},
+                                              {"fisheye", LensDistortion::Model::Fisheye}});
   }
+
+  void require(const char* key, double value) const {
+    if (std::isnan(value)) throw InputError(file, section + key + " is missing");
+  }
+
+  /// After the file has been read.
+  void check() {
+    require("fx", camera.fx);
+    require("fy", camera.fy);
+    require("cx", camera.cx);
+    require("cy", camera.cy);
+    if ((camera.width == 0) != (camera.height == 0))
+      throw InputError(file, section + "width and height are given both or not at all");
+    std::vector<double>& numbers = distortion.coefficients;
+    const bool fisheye = distortion.model == LensDistortion::Model::Fisheye;
+    if (fisheye && numbers.size() != 4 && !numbers.empty()) {
+      throw InputError(file, fmt::format("{}distortion has {} numbers, a fisheye lens has 4: k1 k2 k3 k4",
+                                         section, numbers.size()));
+    }
+    const bool straight = std::all_of(numbers.begin(), numbers.end(), [](double k) { return k == 0; });
+    if (straight && !fisheye) numbers.clear();
+  }
+};
+
+/// Whether the file says anything of a depth camera.
+bool says_anything(const RecordedDepthCamera& camera, const std::vector<double>& depth_to_colour) {
+  const Intrinsics& k = camera.intrinsics;
+  return k.width != 0 || k.height != 0 || !std::isnan(k.fx) || !std::isnan(k.fy) || !std::isnan(k.cx) ||
+         !std::isnan(k.cy) || !camera.distortion.empty() || !depth_to_colour.empty();
 }
 
 }  // namespace
 
 RecordedCamera read_camera_file(const std::filesystem::path& file) {
   RecordedCamera camera;
-  Intrinsics& k = camera.intrinsics;
-  k.fx = k.fy = k.cx = k.cy = camera.depth_unit = kMissing;
+  camera.depth_unit = kMissing;
+  RecordedDepthCamera depth;
+  std::vector<double> depth_to_colour;
+  CameraKeys keys{file, "", camera.intrinsics, camera.distortion};
+  CameraKeys depth_keys{file, "depth.", depth.intrinsics, depth.distortion};
   ConfigSchema schema;
-  schema.add("width", &k.width, Range{1, kLargestSide});
-  schema.add("height", &k.height, Range{1, kLargestSide});
-  schema.add("fx", &k.fx, Range{1e-3, kLargestPixel});
-  schema.add("fy", &k.fy, Range{1e-3, kLargestPixel});
-  schema.add("cx", &k.cx, Range{-kLargestPixel, kLargestPixel});
-  schema.add("cy", &k.cy, Range{-kLargestPixel, kLargestPixel});
-  schema.add("distortion", &camera.distortion.coefficients, Range{-1e3, 1e3}, {0, 4, 5, 8, 12, 14});
-  schema.add("distortion_model", &camera.distortion.model,
-             Choices<LensDistortion::Model>{{"radtan", LensDistortion::Model::RadialTangential},
-                                            {"fisheye", LensDistortion::Model::Fisheye}});
+  keys.bind(schema);
   schema.add("depth_unit", &camera.depth_unit, Range{kSmallestUnit, 1e3});
+  depth_keys.bind(schema);
+  schema.add("depth.depth_to_colour", &depth_to_colour, Range{-1e3, 1e3}, {0, 16});
   schema.load_file(file);
-  const auto require = [&](const char* key, double value) {
-    if (std::isnan(value)) throw InputError(file, std::string(key) + " is missing");
-  };
-  require("fx", k.fx);
-  require("fy", k.fy);
-  require("cx", k.cx);
-  require("cy", k.cy);
-  require("depth_unit", camera.depth_unit);
-  if ((k.width == 0) != (k.height == 0)) {
-    throw InputError(file, "width and height are given both or not at all");
-  }
-  check_distortion(file, camera.distortion);
-  std::vector<double>& coefficients = camera.distortion.coefficients;
-  if (std::all_of(coefficients.begin(), coefficients.end(), [](double value) { return value == 0; }) &&
-      camera.distortion.model == LensDistortion::Model::RadialTangential)
-    coefficients.clear();
+  keys.check();
+  keys.require("depth_unit", camera.depth_unit);
+  if (!says_anything(depth, depth_to_colour)) return camera;
+  depth_keys.check();
+  if (depth.intrinsics.width == 0) throw InputError(file, "depth.width and depth.height are missing");
+  if (camera.intrinsics.width == 0)
+    throw InputError(file, "width and height are missing; where there is a section depth they are needed");
+  const auto transform = rigid_from_rows(depth_to_colour);
+  if (!transform)
+    throw InputError(file, "depth.depth_to_colour must be a rigid 4 x 4 matrix by rows, 16 numbers");
+  depth.depth_to_colour = *transform;
+  camera.depth_camera = depth;
   return camera;
 }
 

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <Eigen/Geometry>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -24,17 +26,28 @@ struct LensDistortion {
   bool empty() const { return coefficients.empty(); }
 };
 
-/// The camera of a recording: colour and depth are registered to it.
+/// A depth camera beside the colour camera.
+struct RecordedDepthCamera {
+  Intrinsics intrinsics;
+  LensDistortion distortion;
+  Eigen::Isometry3d depth_to_colour = Eigen::Isometry3d::Identity();  ///< metres
+};
+
+/// The camera of a recording.
 struct RecordedCamera {
   Intrinsics intrinsics;  ///< width and height are 0 where nobody has said them
   LensDistortion distortion;
   double depth_unit = 0;  ///< metres for one step of the depth images
+  std::optional<RecordedDepthCamera> depth_camera =
+      std::nullopt;  ///< where depth is not registered to colour
 };
 
 /// Reads camera.yaml: fx, fy, cx, cy (pixels, centres at integers) and depth_unit (metres for one step);
 /// optionally width and height (pixels, both or none), distortion (a list as in LensDistortion) and
-/// distortion_model, "radtan" or "fisheye". Throws InputError naming the key that is missing, unknown or
-/// wrong.
+/// distortion_model, "radtan" or "fisheye". Where depth is not registered to colour, the section `depth` has
+/// width, height, fx, fy, cx, cy, distortion and distortion_model of the depth camera, and depth_to_colour: a
+/// 4 x 4 matrix by rows, metres, that takes a point from the depth camera's frame to the colour camera's.
+/// Throws InputError naming the key that is missing, unknown or wrong.
 RecordedCamera read_camera_file(const std::filesystem::path& file);
 
 /// Reads the calibration that Open3D's recorders leave, camera_intrinsic.json or intrinsic.json: "width",

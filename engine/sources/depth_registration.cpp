@@ -57,25 +57,53 @@ class Splatter {
   cv::Mat& out_;
 };
 
-/// The mean of two depths of one surface; 0 where one is missing or an edge lies between them.
-float between(float a, float b) {
-  const bool same = a > 0 && b > 0 && std::abs(a - b) < kSameSurface * std::min(a, b);
-  return same ? 0.5f * (a + b) : 0;
+/// A depth beside a hole, and how many pixels from it.
+struct Rim {
+  float depth = 0;  ///< 0: none near enough
+  int distance = 0;
+};
+
+/// The first depth from (x, y) in one direction, up to `reach` pixels off.
+Rim find_rim(const cv::Mat& depth, cv::Point from, cv::Point step, int reach) {
+  for (int distance = 1; distance <= reach; ++distance) {
+    const cv::Point at = from + distance * step;
+    if (at.x < 0 || at.y < 0 || at.x >= depth.cols || at.y >= depth.rows) break;
+    const float z = depth.at<float>(at);
+    if (z > 0) return {z, distance};
+  }
+  return {};
 }
 
-/// Surfaces seen at a slant are pulled apart where the colour camera looks at them more squarely.
-void close_gaps(cv::Mat& depth) {
+/// The depth between two of one surface; 0 where one is missing, an edge lies between them, or the gap is
+/// wider than `widest`.
+float between(const Rim& a, const Rim& b, int widest) {
+  const bool same = a.depth > 0 && b.depth > 0 && a.distance + b.distance <= widest + 1 &&
+                    std::abs(a.depth - b.depth) < kSameSurface * std::min(a.depth, b.depth);
+  if (!same) return 0;
+  const auto before = static_cast<float>(a.distance), after = static_cast<float>(b.distance);
+  return (a.depth * after + b.depth * before) / (before + after);
+}
+
+/// Surfaces seen at a slant are pulled apart where the colour camera looks at them more squarely, and by more
+/// pixels where it has more of them. Gaps of up to `widest` pixels are closed.
+void close_gaps(cv::Mat& depth, int widest) {
   const cv::Mat before = depth.clone();
   for (int y = 1; y + 1 < depth.rows; ++y) {
     auto* out = depth.ptr<float>(y);
-    const auto *above = before.ptr<float>(y - 1), *here = before.ptr<float>(y);
-    const auto* below = before.ptr<float>(y + 1);
+    const auto* here = before.ptr<float>(y);
     for (int x = 1; x + 1 < depth.cols; ++x) {
       if (here[x] > 0) continue;
-      const float across = between(here[x - 1], here[x + 1]);
-      out[x] = across > 0 ? across : between(above[x], below[x]);
+      const auto rim = [&](int dx, int dy) { return find_rim(before, {x, y}, {dx, dy}, widest); };
+      const float across = between(rim(-1, 0), rim(1, 0), widest);
+      out[x] = across > 0 ? across : between(rim(0, -1), rim(0, 1), widest);
     }
   }
+}
+
+/// How many pixels of the colour image one of the depth image becomes, at the least 1.
+int magnification(const DepthRegistration& cameras) {
+  const double x = cameras.colour.fx / cameras.depth.fx, y = cameras.colour.fy / cameras.depth.fy;
+  return static_cast<int>(std::clamp(std::ceil(std::max(x, y) - 1e-6), 1.0, 8.0));
 }
 
 }  // namespace
@@ -89,7 +117,7 @@ cv::Mat register_depth(const cv::Mat& depth, const DepthRegistration& cameras) {
       if (line[x] > 0 && std::isfinite(line[x])) splatter.add(x, y, line[x]);
     }
   }
-  close_gaps(registered);
+  close_gaps(registered, magnification(cameras));
   return registered;
 }
 

@@ -16,7 +16,8 @@ struct DepthRegistration {
 
 /// The depth image as the colour camera would see it: CV_32FC1 of the colour camera's size, metres along its
 /// z, 0 where nothing was measured. Every depth pixel covers the area that it has in the colour image, the
-/// nearest one wins, and gaps of one pixel between two depths of one surface are closed.
+/// nearest one wins, and gaps between two depths of one surface are closed: of one pixel, or of as many as a
+/// depth pixel becomes where the colour image is finer.
 cv::Mat register_depth(const cv::Mat& depth, const DepthRegistration& cameras);
 
 }  // namespace surefield

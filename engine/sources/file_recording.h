@@ -13,6 +13,7 @@
 #include "engine/sources/camera_file.h"
 #include "engine/sources/depth_registration.h"
 #include "engine/sources/recording.h"
+#include "engine/sources/undistortion.h"
 
 namespace surefield {
 
@@ -33,6 +34,7 @@ struct StoredSequence {
   DepthEncoding depth_encoding;
   std::optional<DepthRegistration>
       registration;                              ///< where the depth camera is another than the colour camera
+  LensDistortion depth_distortion;               ///< of that depth camera
   bool resize_colour = false;                    ///< whether colour is averaged down to the depth's size
   Pose tracked_to_reference = Pose::Identity();  ///< see FrameSource::tracked_to_reference
   std::vector<StoredFrame> frames;
@@ -69,12 +71,10 @@ class FileRecording : public Recording {
   Frame read_frame(int i) const;
   cv::Mat load_colour(const std::filesystem::path& file) const;
   cv::Mat load_depth(const std::filesystem::path& file) const;
-  void undistort(Frame& frame) const;
 
   StoredSequence sequence_;
-  cv::Mat undistortion_x_;  ///< for each undistorted pixel the place in the stored image; empty without
-                            ///< distortion
-  cv::Mat undistortion_y_;
+  Undistortion undistortion_;
+  Undistortion depth_undistortion_;  ///< of a depth camera of its own
 };
 
 /// The frames of numbered images: each number that has a colour or a depth image, and those that lack between

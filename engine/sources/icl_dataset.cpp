@@ -58,7 +58,7 @@ StoredSequence read_icl_sequence(const std::filesystem::path& folder, const Data
   sequence.name = folder.filename().string();
   sequence.format = "icl";
   sequence.frames = read_pair_list(*find_pair_list(folder), sequence);
-  if (const auto camera = own_camera(folder, options, sequence)) {
+  if (const auto camera = own_camera(folder, options, sequence.assumptions)) {
     use_camera(*camera, sequence);
   } else {
     use_camera(known_camera("icl"), sequence);

@@ -47,6 +47,14 @@ inline constexpr const char* kPlainLayout = "colour/ (or color/, rgb/) and depth
 bool is_plain(const std::filesystem::path& folder);
 StoredSequence read_plain_sequence(const std::filesystem::path& folder, const DatasetOptions& options = {});
 
+inline constexpr const char* kMcapLayout = "one .mcap file, or those of one ROS 2 bag";
+bool is_mcap(const std::filesystem::path& path);
+inline constexpr const char* kDb3Layout = "one .db3 file, or those of one ROS 2 bag";
+bool is_db3(const std::filesystem::path& path);
+inline constexpr const char* kBagLayout = "one .bag file of ROS 1, or those of one recording";
+bool is_bag(const std::filesystem::path& path);
+Dataset open_log_dataset(const std::filesystem::path& path, const DatasetOptions& options = {});
+
 /// The list of pairs, "stamp file stamp file", in a folder; nullopt where there is none.
 std::optional<std::filesystem::path> find_pair_list(const std::filesystem::path& folder);
 
@@ -55,12 +63,12 @@ std::optional<std::filesystem::path> find_pair_list(const std::filesystem::path&
 std::vector<StoredFrame> read_pair_list(const std::filesystem::path& file, StoredSequence& sequence);
 
 /// The camera that the user gives: that of the options, else camera.yaml in the folder; nullopt where there
-/// is none. Says in the sequence's assumptions which it is.
+/// is none. Adds to the assumptions which it is.
 std::optional<RecordedCamera> own_camera(const std::filesystem::path& folder, const DatasetOptions& options,
-                                         StoredSequence& sequence);
+                                         std::vector<std::string>& assumptions);
 
-/// Takes a camera for that of the sequence, with depth registered to it. Where it has no size, that is the
-/// size of the first depth image that can be read.
+/// Takes a camera for that of the sequence, with depth registered to it unless it names a depth camera. Where
+/// it has no size, that is the size of the first depth image that can be read.
 void use_camera(const RecordedCamera& camera, StoredSequence& sequence);
 
 /// The stamps of all frames, seconds.

@@ -8,60 +8,15 @@
 
 #include "engine/io/file_names.h"
 #include "engine/io/files.h"
+#include "engine/logs/message_log.h"
 #include "engine/sources/file_recording.h"
 #include "engine/sources/layouts.h"
+#include "engine/sources/stamp_notes.h"
 #include "engine/types/error.h"
 
 namespace surefield {
 
 namespace {
-
-constexpr double kNearestPose = 0.02;  // seconds between a frame and its true pose
-
-/// "12.5 to 40" of stamps that are sorted, or nearly so.
-std::string range_text(double first, double last) {
-  return fmt::format("{:.2f} to {:.2f}", first, last);
-}
-
-/// Warns of true poses of which none is near a frame.
-void check_truth(StoredSequence& sequence) {
-  if (!sequence.ground_truth) return;
-  std::vector<double> stamps;
-  for (const StampedPose& pose : *sequence.ground_truth)
-    if (pose.is_finite()) stamps.push_back(pose.timestamp);
-  std::sort(stamps.begin(), stamps.end());
-  if (stamps.empty()) {
-    sequence.warnings.push_back("the ground truth knows no pose");
-    return;
-  }
-  for (const StoredFrame& frame : sequence.frames) {
-    const auto next = std::lower_bound(stamps.begin(), stamps.end(), frame.timestamp - kNearestPose);
-    if (next != stamps.end() && *next <= frame.timestamp + kNearestPose) return;
-  }
-  const double first = sequence.frames.front().timestamp, last = sequence.frames.back().timestamp;
-  sequence.warnings.push_back(fmt::format(
-      "no pose of the ground truth is near a frame: its stamps are {} s, those of the frames {} s; the "
-      "clocks "
-      "differ by {:.2f} s",
-      range_text(stamps.front(), stamps.back()), range_text(first, last), first - stamps.front()));
-}
-
-/// Warns of stamps that repeat or go back.
-void check_order(StoredSequence& sequence) {
-  std::size_t repeated = 0;
-  const auto& frames = sequence.frames;
-  for (std::size_t i = 1; i < frames.size(); ++i)
-    repeated += frames[i].timestamp == frames[i - 1].timestamp ? 1 : 0;
-  if (repeated > 0)
-    sequence.warnings.push_back(
-        fmt::format("{} of {} frames have the time stamp of the frame before", repeated, frames.size()));
-}
-
-/// Says what is odd about the stamps of the frames and of the true poses.
-void note_stamps(StoredSequence& sequence) {
-  check_order(sequence);
-  check_truth(sequence);
-}
 
 using Test = bool (*)(const std::filesystem::path&);
 
@@ -77,14 +32,16 @@ template <StoredSequence (*Read)(const std::filesystem::path&, const DatasetOpti
 Dataset open_files(const std::filesystem::path& folder, const DatasetOptions& options) {
   StoredSequence sequence = Read(folder, options);
   if (options.depth_unit) sequence.depth_encoding.unit = *options.depth_unit;
-  note_stamps(sequence);
+  const Trajectory* truth = sequence.ground_truth ? &*sequence.ground_truth : nullptr;
+  for (std::string& note : notes_on_stamps(stamps_of(sequence), truth))
+    sequence.warnings.push_back(std::move(note));
   Dataset dataset;
   dataset.ground_truth = std::move(sequence.ground_truth);
   dataset.recording = std::make_unique<FileRecording>(std::move(sequence));
   return dataset;
 }
 
-constexpr std::array<Layout, 7> kLayouts = {{
+constexpr std::array<Layout, 10> kLayouts = {{
     {"tum", kTumLayout, is_tum, open_files<read_tum_sequence>},
     {"replica", kReplicaLayout, is_replica, open_files<read_replica_sequence>},
     {"sevenscenes", kSevenScenesLayout, is_sevenscenes, open_files<read_sevenscenes_sequence>},
@@ -92,6 +49,9 @@ constexpr std::array<Layout, 7> kLayouts = {{
     {"scannet", kSensLayout, is_sens, open_sens},
     {"icl", kIclLayout, is_icl, open_files<read_icl_sequence>, may_be_icl},
     {"plain", kPlainLayout, is_plain, open_files<read_plain_sequence>},
+    {"mcap", kMcapLayout, is_mcap, open_log_dataset},
+    {"db3", kDb3Layout, is_db3, open_log_dataset},
+    {"bag", kBagLayout, is_bag, open_log_dataset},
 }};
 
 std::string join(const std::vector<std::string>& parts, const std::string& separator) {
@@ -113,16 +73,16 @@ std::string describe_layouts(const std::string& format) {
 /// Throws InputError where a dataset can be neither in that path nor that path itself.
 void require_folder(const std::filesystem::path& path) {
   if (!file_exists(path)) throw InputError(path, "there is no such folder; give the folder of the sequence");
-  if (folder_exists(path) || is_sens(path)) return;
+  if (folder_exists(path) || is_sens(path) || !log_files(path).empty()) return;
   const std::string extension = lower_extension(path);
-  for (const char* packed : {".zip", ".tar", ".tgz", ".gz", ".7z", ".bz2", ".xz"})
+  for (const char* packed : {".zip", ".tar", ".tgz", ".gz", ".7z", ".bz2", ".xz", ".zst", ".zstd"})
     if (extension == packed)
-      throw InputError(path, "is an archive; unpack it and give the folder of the sequence");
-  for (const char* log : {".bag", ".db3", ".mcap", ".oni", ".klg", ".svo"})
+      throw InputError(path, "is packed; unpack it and give the folder of the sequence, or the log");
+  for (const char* log : {".oni", ".klg", ".svo"})
     if (extension == log)
       throw InputError(path,
                        "is a recording of a kind that is not read yet; export its images (docs/datasets.md)");
-  throw InputError(path, "is a file; give the folder of the sequence (or a .sens file)");
+  throw InputError(path, "is a file; give the folder of the sequence (or a .sens, .mcap, .db3 or .bag file)");
 }
 
 /// Names a folder in this one that has a layout, as where an archive was unpacked into a folder of its name.
@@ -174,7 +134,11 @@ Dataset open_dataset(const std::filesystem::path& path, const DatasetOptions& op
   std::error_code error;
   const std::filesystem::path resolved = std::filesystem::canonical(path, error);
   if (error) throw InputError(path, "cannot be opened: " + error.message());
-  return find_layout(resolved, options.format).open(resolved, options);
+  const Layout& layout = find_layout(resolved, options.format);
+  const bool names_topics = !options.colour_topic.empty() || !options.depth_topic.empty();
+  if (names_topics && layout.open != open_log_dataset)
+    throw InputError(path, "has no topics: --colour-topic and --depth-topic are for .mcap, .db3 and .bag");
+  return layout.open(resolved, options);
 }
 
 }  // namespace surefield

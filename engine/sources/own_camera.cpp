@@ -9,11 +9,11 @@
 namespace surefield {
 
 std::optional<RecordedCamera> own_camera(const std::filesystem::path& folder, const DatasetOptions& options,
-                                         StoredSequence& sequence) {
+                                         std::vector<std::string>& assumptions) {
   if (!options.camera.empty()) {
     const std::vector<std::string> names = known_camera_names();
     const bool known = std::find(names.begin(), names.end(), options.camera) != names.end();
-    sequence.assumptions.push_back(fmt::format("the camera is that of {}, as asked for", options.camera));
+    assumptions.push_back(fmt::format("the camera is that of {}, as asked for", options.camera));
     return known ? known_camera(options.camera) : read_camera_file(options.camera);
   }
   if (!file_exists(folder / kCameraFile)) return std::nullopt;
@@ -25,7 +25,13 @@ void use_camera(const RecordedCamera& camera, StoredSequence& sequence) {
   sequence.distortion = camera.distortion;
   sequence.depth_encoding.unit = camera.depth_unit;
   sequence.registration.reset();
+  sequence.depth_distortion = {};
   sequence.tracked_to_reference = Pose::Identity();
+  if (camera.depth_camera) {
+    sequence.registration = DepthRegistration{camera.depth_camera->intrinsics, camera.intrinsics,
+                                              camera.depth_camera->depth_to_colour};
+    sequence.depth_distortion = camera.depth_camera->distortion;
+  }
   if (sequence.intrinsics.width > 0) return;
   const cv::Size size = stored_size(sequence.frames);
   sequence.intrinsics.width = size.width;

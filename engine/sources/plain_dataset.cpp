@@ -187,7 +187,7 @@ std::optional<std::filesystem::path> open3d_camera(const std::filesystem::path& 
 
 void read_plain_camera(const std::filesystem::path& folder, const DatasetOptions& options,
                        StoredSequence& sequence) {
-  if (const auto own = own_camera(folder, options, sequence)) return use_camera(*own, sequence);
+  if (const auto own = own_camera(folder, options, sequence.assumptions)) return use_camera(*own, sequence);
   const std::filesystem::path file = *open3d_camera(folder);
   use_camera(read_open3d_camera(file), sequence);
   sequence.assumptions.push_back(fmt::format("the camera is that of Open3D's {}, depth in steps of {:g} m",

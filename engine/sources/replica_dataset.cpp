@@ -50,7 +50,7 @@ StoredSequence read_replica_sequence(const std::filesystem::path& folder, const 
       numbered_frames({numbered_images(images, {"frame"}), numbered_images(images, {"depth"}),
                        [&](int number) { return images / fmt::format("frame{:06}.jpg", number); },
                        [&](int number) { return images / fmt::format("depth{:06}.png", number); }});
-  if (const auto own = own_camera(folder, options, sequence)) {
+  if (const auto own = own_camera(folder, options, sequence.assumptions)) {
     use_camera(*own, sequence);
   } else {
     const JsonObject camera = JsonObject(find_calibration(folder)).object("camera");

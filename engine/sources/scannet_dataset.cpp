@@ -56,7 +56,7 @@ StoredSequence read_scannet_sequence(const std::filesystem::path& folder, const 
   if (sequence.frames.empty())
     throw InputError(folder, "color/ and depth/ hold no image that is named by a number");
   sequence.resize_colour = true;
-  if (const auto own = own_camera(folder, options, sequence)) {
+  if (const auto own = own_camera(folder, options, sequence.assumptions)) {
     use_camera(*own, sequence);
   } else {
     sequence.intrinsics =

@@ -54,7 +54,7 @@ StoredSequence read_sevenscenes_sequence(const std::filesystem::path& folder, co
   sequence.registration = DepthRegistration{kDepthCamera, kColourCamera, depth_to_colour()};
   sequence.tracked_to_reference = depth_to_colour().inverse();
   sequence.depth_encoding = kDepthEncoding;
-  if (const auto own = own_camera(folder, options, sequence)) {
+  if (const auto own = own_camera(folder, options, sequence.assumptions)) {
     use_camera(*own, sequence);
   } else {
     sequence.assumptions.push_back(

@@ -12,14 +12,13 @@
 #include "engine/io/text_file.h"
 #include "engine/io/trajectory_formats.h"
 #include "engine/sources/layouts.h"
+#include "engine/sources/pair_by_time.h"
 #include "engine/sources/stamped_rows.h"
 #include "engine/types/error.h"
 
 namespace surefield {
 
 namespace {
-
-constexpr double kMaxStampDifference = 0.02;  // seconds between the colour and the depth image of a frame
 
 /// The camera of the benchmark that the name of a sequence tells; empty where it tells none.
 std::string camera_by_name(const std::string& name) {
@@ -34,7 +33,7 @@ std::string camera_by_name(const std::string& name) {
 /// folder's name tells.
 void read_tum_calibration(const std::filesystem::path& folder, const DatasetOptions& options,
                           StoredSequence& sequence) {
-  if (const auto own = own_camera(folder, options, sequence)) return use_camera(*own, sequence);
+  if (const auto own = own_camera(folder, options, sequence.assumptions)) return use_camera(*own, sequence);
   const std::filesystem::path file = folder / "cam_params.json";
   if (file_exists(file)) {
     const JsonObject camera = JsonObject(file).object("camera");
@@ -84,26 +83,13 @@ std::vector<ListedImage> read_list(const std::filesystem::path& file, StoredSequ
   return read_stamped_rows(file, sequence, [&](const TextLine& line) { return parse_row(file, line); });
 }
 
-/// The image of a sorted list that is nearest in time; the earlier one of two at the same distance.
-const ListedImage& nearest(const std::vector<ListedImage>& images, double timestamp) {
-  const auto after =
-      std::lower_bound(images.begin(), images.end(), timestamp,
-                       [](const ListedImage& image, double stamp) { return image.timestamp < stamp; });
-  if (after == images.begin()) return *after;
-  const auto before = std::prev(after);
-  if (after == images.end()) return *before;
-  return timestamp - before->timestamp <= after->timestamp - timestamp ? *before : *after;
-}
-
 /// Pairs each colour image with the depth image that is nearest in time.
 void pair_by_stamps(const std::vector<ListedImage>& colours, const std::vector<ListedImage>& depths,
                     const std::filesystem::path& folder, StoredSequence& sequence) {
-  for (const ListedImage& colour : colours) {
-    const ListedImage& depth = nearest(depths, colour.timestamp);
-    if (std::abs(depth.timestamp - colour.timestamp) > kMaxStampDifference) continue;
-    sequence.frames.push_back({colour.timestamp, colour.file, depth.file, depth.timestamp});
-  }
-  const std::size_t lonely = colours.size() - sequence.frames.size();
+  const std::size_t lonely =
+      pair_by_time(colours, depths, [&](const ListedImage& colour, const ListedImage& depth) {
+        sequence.frames.push_back({colour.timestamp, colour.file, depth.file, depth.timestamp});
+      });
   if (sequence.frames.empty()) {
     throw InputError(folder,
                      fmt::format("no colour image has a depth image within 0.02 s; they begin at {:.3f} and "

@@ -70,9 +70,9 @@ TEST_CASE("no include runs upward") {
   CHECK(includes > 500);
 }
 
-TEST_CASE("files, formats, sources, evaluation, meshes and reports need no Vulkan") {
+TEST_CASE("files, formats, logs, sources, evaluation, meshes and reports need no Vulkan") {
   for (const char* room :
-       {"types", "io", "config", "formats", "sources", "places", "graph", "mesh", "eval", "report"}) {
+       {"types", "io", "config", "formats", "logs", "sources", "places", "graph", "mesh", "eval", "report"}) {
     INFO(room);
     CHECK_FALSE(closure(room).contains("gpu"));
   }

@@ -338,7 +338,8 @@ TEST_CASE("what is given in the place of a folder is named") {
                  "; recording in it has that of plain: give it"));
   CHECK(contains(input_error([&] { open_dataset(folder.write("a.txt", "")); }),
                  "a.txt: is a file; give the folder"));
-  CHECK(contains(input_error([&] { open_dataset(folder.write("a.zip", "")); }), "is an archive; unpack it"));
+  CHECK(contains(input_error([&] { open_dataset(folder.write("a.zip", "")); }), "is packed; unpack it"));
   CHECK(
-      contains(input_error([&] { open_dataset(folder.write("a.bag", "")); }), "a kind that is not read yet"));
+      contains(input_error([&] { open_dataset(folder.write("a.klg", "")); }), "a kind that is not read yet"));
+  CHECK(contains(input_error([&] { open_dataset(folder.write("a.bag", "")); }), "is no ROS 1 bag"));
 }

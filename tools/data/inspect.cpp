@@ -33,12 +33,14 @@ constexpr const char* kInspectExamples =
     "\n"
     "Examples:\n"
     "  surefield inspect rgbd_dataset_freiburg1_desk\n"
+    "  surefield inspect walk.mcap\n"
     "  surefield inspect my_recording --json inspection.json\n";
 
 struct InspectOptions {
   std::string dataset;
   std::string format = "auto";
-  std::string json;  ///< file to write; empty: none
+  std::string colour_topic, depth_topic;  ///< as DatasetOptions has them
+  std::string json;                       ///< file to write; empty: none
 };
 
 /// The depths that a run with the built-in settings uses, and those that there can be.
@@ -74,7 +76,7 @@ bool comparable(const DatasetSurvey& survey) {
 Inspection look_at(const Dataset& dataset) {
   const Recording& recording = *dataset.recording;
   const DepthReach reach = reach_of(recording);
-  Inspection inspection{survey_with_progress(dataset, reach.limit), {}, {}};
+  Inspection inspection{survey_with_progress(dataset, reach.limit), {}, {}, {}};
   fmt::print("{}", survey_text(recording, inspection.survey));
   std::fflush(stdout);
   inspection.verdicts = survey_verdicts(recording, dataset.truth(), inspection.survey, reach);
@@ -104,8 +106,15 @@ int exit_code(const std::vector<Verdict>& verdicts) {
 
 int inspect(const InspectOptions& options) {
   catch_interrupts();
-  const Dataset dataset = open_dataset(options.dataset, {.format = options.format});
-  const Inspection inspection = look_at(dataset);
+  DatasetOptions dataset_options{.format = options.format};
+  dataset_options.colour_topic = options.colour_topic;
+  dataset_options.depth_topic = options.depth_topic;
+  const std::vector<ListedTopic> topics = list_topics(options.dataset, dataset_options);
+  fmt::print("{}", topics_text(topics));
+  std::fflush(stdout);
+  const Dataset dataset = open_dataset(options.dataset, dataset_options);
+  Inspection inspection = look_at(dataset);
+  inspection.topics = topics;
   if (!interrupted()) fmt::print("{}", verdicts_text(inspection.verdicts));
   if (!options.json.empty()) {
     const auto json = inspection_json(*dataset.recording, inspection);
@@ -122,10 +131,16 @@ void add_inspect(CLI::App& program, Action& action) {
   auto options = std::make_shared<InspectOptions>();
   CLI::App* command =
       program.add_subcommand("inspect", "Tells what a dataset holds and whether its calibration fits");
-  command->add_option("dataset", options->dataset, "Folder of the sequence (or a .sens file)")->required();
+  command
+      ->add_option("dataset", options->dataset,
+                   "Folder of the sequence (or a .sens, .mcap, .db3 or .bag file)")
+      ->required();
   command->add_option("--format", options->format, "Layout of the dataset")
       ->check(CLI::IsMember(known_formats()))
       ->capture_default_str();
+  command->add_option("--colour-topic", options->colour_topic,
+                      "Topic of the colour images in a log, where the one that is found is another");
+  command->add_option("--depth-topic", options->depth_topic, "The same of the depth images");
   command->add_option("--json", options->json, "Also writes everything to this file");
   command->footer(kInspectExamples);
   command->callback([options, &action] { action = [options] { return inspect(*options); }; });

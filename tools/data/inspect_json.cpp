@@ -91,6 +91,13 @@ Json check_json(const DatasetCheck& check) {
 Json inspection_json(const Recording& recording, const Inspection& inspection) {
   Json json = survey_json(recording, inspection.survey);
   if (inspection.check) json["check"] = check_json(*inspection.check);
+  json["topics"] = Json::array();
+  for (const ListedTopic& listed : inspection.topics)
+    json["topics"].push_back({{"name", listed.topic.name},
+                              {"type", listed.topic.type},
+                              {"encoding", listed.topic.encoding},
+                              {"messages", listed.topic.messages},
+                              {"use", listed.use.empty() ? Json(nullptr) : Json(listed.use)}});
   json["verdicts"] = Json::array();
   for (const Verdict& verdict : inspection.verdicts) {
     json["verdicts"].push_back(

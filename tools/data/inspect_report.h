@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "engine/eval/verdicts.h"
+#include "engine/sources/log_contents.h"
 
 namespace surefield {
 
@@ -14,7 +15,11 @@ struct Inspection {
   DatasetSurvey survey;
   std::optional<DatasetCheck> check;  ///< nothing where no frame could be read, or the user interrupted
   std::vector<Verdict> verdicts;
+  std::vector<ListedTopic> topics;  ///< of a log; empty where the dataset is none
 };
+
+/// The topics of a log with what is taken from each, a line each; nothing where there are none.
+std::string topics_text(const std::vector<ListedTopic>& topics);
 
 /// What was recognised and read, a line each.
 std::string survey_text(const Recording& recording, const DatasetSurvey& survey);

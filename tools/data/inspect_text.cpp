@@ -28,6 +28,16 @@ std::string stamps_text(const StampSurvey& stamps) {
 
 }  // namespace
 
+std::string topics_text(const std::vector<ListedTopic>& topics) {
+  std::string text;
+  for (const ListedTopic& listed : topics) {
+    const std::string use = listed.use.empty() ? "" : "  <- " + listed.use;
+    text += fmt::format("{:<16} {}  {}, {} messages{}\n", text.empty() ? "topics" : "", listed.topic.name,
+                        listed.topic.type, listed.topic.messages, use);
+  }
+  return text;
+}
+
 std::string survey_text(const Recording& recording, const DatasetSurvey& survey) {
   const Intrinsics k = recording.intrinsics();
   std::string text = fmt::format("dataset          {}, format {}\n", recording.name(), recording.format());

@@ -19,7 +19,9 @@ Dataset open_run_dataset(const RunOptions& options) {
     return open_dataset(options.dataset, {.format = options.format,
                                           .depth_delay = options.depth_delay.value_or(0),
                                           .camera = options.assumed_camera,
-                                          .depth_unit = options.assumed_depth_unit});
+                                          .depth_unit = options.assumed_depth_unit,
+                                          .colour_topic = options.colour_topic,
+                                          .depth_topic = options.depth_topic});
   if (options.format != "auto" && options.format != kSynthetic) {
     throw InputError("--dataset synthetic has no files of the format " + options.format +
                      "; leave --format out (a folder of that name is given as ./synthetic)");

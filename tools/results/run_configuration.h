@@ -21,6 +21,8 @@ struct RunOptions {
   std::optional<DepthDelay> estimated_depth_delay;  ///< what depth_delay comes from, where it was estimated
   std::string assumed_camera;                       ///< as DatasetOptions::camera
   std::optional<double> assumed_depth_unit;         ///< metres for one step, as DatasetOptions::depth_unit
+  std::string colour_topic;                         ///< of a log, as DatasetOptions::colour_topic
+  std::string depth_topic;                          ///< the same of depth
   std::string config;                               ///< a file; empty: the built-in one of the format
   std::vector<std::string> assignments;             ///< "key=value", applied after the file
   std::string out;                                  ///< folder of the results

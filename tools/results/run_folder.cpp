@@ -132,6 +132,8 @@ Dataset open_dataset_of(const RunFolder& run, const std::string& instead) {
   options.assumed_camera = run.text("/dataset/assumed_camera");
   const double depth_unit = run.number("/dataset/assumed_depth_unit_m");
   if (std::isfinite(depth_unit)) options.assumed_depth_unit = depth_unit;
+  options.colour_topic = run.text("/dataset/colour_topic");
+  options.depth_topic = run.text("/dataset/depth_topic");
   const double depth_delay = run.number("/dataset/depth_delay_s");
   if (std::isfinite(depth_delay)) options.depth_delay = depth_delay;
   return open_run_dataset(options);

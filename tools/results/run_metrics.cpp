@@ -57,7 +57,9 @@ Json dataset_json(const RunRecord& record) {
       {"depth_delay_s", record.depth_delay},
       {"depth_delay_error_s", depth_delay_error(record)},
       {"assumed_camera", record.assumed_camera.empty() ? Json(nullptr) : Json(record.assumed_camera)},
-      {"assumed_depth_unit_m", record.assumed_depth_unit ? Json(*record.assumed_depth_unit) : Json(nullptr)}};
+      {"assumed_depth_unit_m", record.assumed_depth_unit ? Json(*record.assumed_depth_unit) : Json(nullptr)},
+      {"colour_topic", record.colour_topic.empty() ? Json(nullptr) : Json(record.colour_topic)},
+      {"depth_topic", record.depth_topic.empty() ? Json(nullptr) : Json(record.depth_topic)}};
 }
 
 Json frames_json(const RunRecord& record) {

@@ -29,6 +29,8 @@ struct RunRecord {
   std::optional<DepthDelay> estimated_depth_delay;  ///< where depth_delay comes from
   std::string assumed_camera;                       ///< as the user asked; empty: none
   std::optional<double> assumed_depth_unit;         ///< metres, as the user asked
+  std::string colour_topic;                         ///< of a log, as the user asked; empty: chosen
+  std::string depth_topic;                          ///< the same of depth
   FrameSelection selection;
   std::optional<int> selected;  ///< frames that were to be fed; nullopt: nobody knew how many
   Intrinsics intrinsics;        ///< of the frames fed

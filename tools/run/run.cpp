@@ -31,6 +31,7 @@ constexpr const char* kRunExamples =
     "Examples:\n"
     "  surefield run --dataset synthetic --out out/demo\n"
     "  surefield run --dataset rgbd_dataset_freiburg1_desk --out out/desk --frames 100 --scale 0.5\n"
+    "  surefield run --dataset walk.mcap --out out/walk --colour-topic /camera/color/image_raw\n"
     "  surefield run --dataset Replica/room0 --out out/room0 --set gauss_newton.renders=5 --set seed=2\n"
     "  surefield run --dataset synthetic --out out/demo --film out/demo.mp4\n"
     "  surefield run --dataset synthetic --out out/demo --viewer\n";
@@ -63,7 +64,8 @@ void add_run(CLI::App& program, Action& action) {
   CLI::App* run =
       program.add_subcommand("run", "Tracks the camera and builds the map of a recorded sequence");
   run->add_option("--dataset", options->dataset,
-                  "Folder of the sequence (or a .sens file), or \"synthetic\" for the embedded one")
+                  "Folder of the sequence (or a .sens, .mcap, .db3 or .bag file), or \"synthetic\" for the "
+                  "embedded one")
       ->required();
   run->add_option("--out", options->out, "Folder of the results")->required();
   run->add_option("--format", options->format, "Layout of the dataset")
@@ -97,6 +99,10 @@ void add_run(CLI::App& program, Action& action) {
   run->add_option("--assume-depth-unit", options->assumed_depth_unit,
                   "Metres for one step of the depth images, instead of what the dataset says or implies")
       ->check(CLI::PositiveNumber);
+  run->add_option(
+      "--colour-topic", options->colour_topic,
+      "Topic of the colour images in a log (.mcap, .db3, .bag), where the one that is found is another");
+  run->add_option("--depth-topic", options->depth_topic, "The same of the depth images");
   run->add_option("--device", options->engine.device,
                   "Number or part of the name of the device, see surefield devices; default: the best");
   run->add_flag("--validate", options->engine.validate, "Runs under Vulkan's validation layer (slow)");

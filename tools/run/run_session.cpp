@@ -43,6 +43,8 @@ RunRecord start_record(const RunOptions& options, const FrameSource& source) {
   record.estimated_depth_delay = options.estimated_depth_delay;
   record.assumed_camera = options.assumed_camera;
   record.assumed_depth_unit = options.assumed_depth_unit;
+  record.colour_topic = options.colour_topic;
+  record.depth_topic = options.depth_topic;
   record.selection = options.selection;
   record.selected = source.size();
   record.intrinsics = source.intrinsics();
