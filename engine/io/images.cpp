@@ -90,10 +90,15 @@ cv::Mat decode_colour(const std::string& bytes, const std::filesystem::path& nam
 }
 
 cv::Mat read_depth(const std::filesystem::path& file, const DepthEncoding& encoding, cv::Size expected) {
-  const cv::Mat stored = decode(file, read_regular_file(file), cv::IMREAD_UNCHANGED, expected);
+  return decode_depth(read_regular_file(file), file, encoding, expected);
+}
+
+cv::Mat decode_depth(const std::string& bytes, const std::filesystem::path& name,
+                     const DepthEncoding& encoding, cv::Size expected) {
+  const cv::Mat stored = decode(name, bytes, cv::IMREAD_UNCHANGED, expected);
   if (stored.type() != CV_16UC1) {
     throw InputError(
-        file, fmt::format("is no depth image: 16 bits and one channel are needed, it has {} bits "
+        name, fmt::format("is no depth image: 16 bits and one channel are needed, it has {} bits "
                           "and {} channel{}",
                           8 * stored.elemSize1(), stored.channels(), stored.channels() == 1 ? "" : "s"));
   }

@@ -39,6 +39,10 @@ cv::Mat depth_in_metres(const cv::Mat& stored, const DepthEncoding& encoding);
 /// damaged or not 16-bit with one channel. `expected` as for colour.
 cv::Mat read_depth(const std::filesystem::path& file, const DepthEncoding& encoding, cv::Size expected = {});
 
+/// The same from the `bytes` of an image file; `name` is what errors call it.
+cv::Mat decode_depth(const std::string& bytes, const std::filesystem::path& name,
+                     const DepthEncoding& encoding, cv::Size expected = {});
+
 /// Writes a CV_32FC1 or CV_32FC3 (RGB) image as an uncompressed 32-bit float TIFF; every bit survives, NaN
 /// included. Throws InputError when the type is another or the file cannot be written.
 void write_tiff(const std::filesystem::path& file, const cv::Mat& image);

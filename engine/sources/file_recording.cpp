@@ -4,7 +4,6 @@
 
 #include <iterator>
 #include <new>
-#include <opencv2/calib3d.hpp>
 #include <opencv2/imgproc.hpp>
 #include <utility>
 
@@ -67,19 +66,8 @@ cv::Size stored_size(const std::vector<StoredFrame>& frames) {
   throw InputError("no depth image can be read; " + problem);
 }
 
-FileRecording::FileRecording(StoredSequence sequence) : sequence_(std::move(sequence)) {
-  if (sequence_.distortion.empty()) return;
-  const Intrinsics& k = sequence_.intrinsics;
-  const cv::Matx33d camera(k.fx, 0, k.cx, 0, k.fy, k.cy, 0, 0, 1);
-  const auto& coefficients = sequence_.distortion.coefficients;
-  if (sequence_.distortion.model == LensDistortion::Model::Fisheye) {
-    cv::fisheye::initUndistortRectifyMap(camera, coefficients, cv::Matx33d::eye(), camera, size_of(k),
-                                         CV_32FC1, undistortion_x_, undistortion_y_);
-  } else {
-    cv::initUndistortRectifyMap(camera, coefficients, cv::noArray(), camera, size_of(k), CV_32FC1,
-                                undistortion_x_, undistortion_y_);
-  }
-}
+FileRecording::FileRecording(StoredSequence sequence)
+    : sequence_(std::move(sequence)), undistortion_({sequence_.intrinsics, sequence_.distortion, 0}) {}
 
 LoadedFrame FileRecording::load(int i) const {
   try {
@@ -99,7 +87,7 @@ Frame FileRecording::read_frame(int i) const {
   frame.depth_after = depth_after(i);
   frame.colour = load_colour(find_spelling(stored.colour));
   frame.depth = load_depth(find_spelling(stored.depth));
-  if (!undistortion_x_.empty()) undistort(frame);
+  undistortion_.apply(frame);
   return frame;
 }
 
@@ -116,17 +104,6 @@ cv::Mat FileRecording::load_depth(const std::filesystem::path& file) const {
   const cv::Size size = size_of(registration ? registration->depth : sequence_.intrinsics);
   const cv::Mat depth = read_depth(file, sequence_.depth_encoding, size);
   return registration ? register_depth(depth, *registration) : depth;
-}
-
-void FileRecording::undistort(Frame& frame) const {
-  cv::Mat colour;
-  cv::Mat depth;
-  // Beyond the stored image colour repeats the border: black there would be learnt as a dark frame around the
-  // scene.
-  cv::remap(frame.colour, colour, undistortion_x_, undistortion_y_, cv::INTER_LINEAR, cv::BORDER_REPLICATE);
-  cv::remap(frame.depth, depth, undistortion_x_, undistortion_y_, cv::INTER_NEAREST, cv::BORDER_CONSTANT, 0);
-  frame.colour = colour;
-  frame.depth = depth;
 }
 
 }  // namespace surefield

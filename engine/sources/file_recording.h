@@ -13,6 +13,7 @@
 #include "engine/sources/camera_file.h"
 #include "engine/sources/depth_registration.h"
 #include "engine/sources/recording.h"
+#include "engine/sources/undistortion.h"
 
 namespace surefield {
 
@@ -69,12 +70,9 @@ class FileRecording : public Recording {
   Frame read_frame(int i) const;
   cv::Mat load_colour(const std::filesystem::path& file) const;
   cv::Mat load_depth(const std::filesystem::path& file) const;
-  void undistort(Frame& frame) const;
 
   StoredSequence sequence_;
-  cv::Mat undistortion_x_;  ///< for each undistorted pixel the place in the stored image; empty without
-                            ///< distortion
-  cv::Mat undistortion_y_;
+  Undistortion undistortion_;
 };
 
 /// The frames of numbered images: each number that has a colour or a depth image, and those that lack between
