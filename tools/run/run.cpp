@@ -64,7 +64,7 @@ int run_watched(const RunOptions& options) {
 void add_run(CLI::App& program, Action& action) {
   auto options = std::make_shared<RunOptions>();
   CLI::App* run =
-      program.add_subcommand("run", "Tracks the camera and builds the map of a recorded sequence");
+      program.add_subcommand("run", "Tracks the camera and builds the map of a recorded sequence, or live");
   auto* dataset =
       run->add_option("--dataset", options->dataset,
                       "Folder of the sequence (or a .sens file), or \"synthetic\" for the embedded one");
