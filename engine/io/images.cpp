@@ -89,11 +89,11 @@ cv::Mat decode_colour(const std::string& bytes, const std::filesystem::path& nam
   return image;
 }
 
-cv::Mat decode_depth_steps(const std::string& bytes, const std::filesystem::path& file, cv::Size expected) {
-  cv::Mat stored = decode(file, bytes, cv::IMREAD_UNCHANGED, expected);
+cv::Mat decode_depth_steps(const std::string& bytes, const std::filesystem::path& name, cv::Size expected) {
+  cv::Mat stored = decode(name, bytes, cv::IMREAD_UNCHANGED, expected);
   if (stored.type() != CV_16UC1) {
     throw InputError(
-        file, fmt::format("is no depth image: 16 bits and one channel are needed, it has {} bits "
+        name, fmt::format("is no depth image: 16 bits and one channel are needed, it has {} bits "
                           "and {} channel{}",
                           8 * stored.elemSize1(), stored.channels(), stored.channels() == 1 ? "" : "s"));
   }

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <condition_variable>
 #include <limits>
 #include <mutex>
 #include <new>
@@ -51,6 +52,7 @@ class Listener : public SlamListener {
       tell_unreadable(frame.index);
       any_fed_ = true;
       for (RunObserver* observer : observers_) observer->fed(frame, slam, report);
+      count_done();
       return true;
     });
   }
@@ -61,8 +63,16 @@ class Listener : public SlamListener {
       if (ends_run(error) || !slam.usable()) std::rethrow_exception(error);
       skip({frame.index, describe(error)});
       count_unusable(error);
+      count_done();
       return true;
     });
+  }
+
+  /// Called by the thread that reads: waits until so many frames were fed or failed, or the thread takes no
+  /// more.
+  void wait_for_done(std::size_t frames) {
+    std::unique_lock lock(mutex_);
+    progress_.wait(lock, [&] { return done_ >= frames || ended_; });
   }
 
   bool any_fed() const { return any_fed_; }
@@ -119,11 +129,27 @@ class Listener : public SlamListener {
     try {
       if (work()) return true;
     } catch (...) {
-      ended_ = true;
+      end();
       throw;
     }
-    ended_ = true;
+    end();
     return false;
+  }
+
+  void end() {
+    {
+      const std::lock_guard lock(mutex_);
+      ended_ = true;
+    }
+    progress_.notify_all();
+  }
+
+  void count_done() {
+    {
+      const std::lock_guard lock(mutex_);
+      ++done_;
+    }
+    progress_.notify_all();
   }
 
   void skip(const SkippedFrame& frame) {
@@ -141,16 +167,33 @@ class Listener : public SlamListener {
   std::mutex mutex_;  ///< guards what follows
   std::vector<SkippedFrame> unreadable_;
   std::size_t told_ = 0;
+  std::size_t done_ = 0;  ///< frames that were fed or failed
+  std::condition_variable progress_;
 };
+
+/// The source's next frame. Where it throws, what it gave before is fed first: `fed` frames.
+std::optional<Frame> next_of(FrameSource& source, Listener& listener, std::size_t fed) {
+  try {
+    return source.next();
+  } catch (...) {
+    listener.wait_for_done(fed);
+    throw;
+  }
+}
 
 /// Has the thread feed all frames of the source and finish, unless it ends before.
 void feed_all(FrameSource& source, SlamThread& thread, Listener& listener) {
+  const bool live = source.live().has_value();
+  std::size_t fed = 0;
   while (!listener.is_interrupted()) {
-    std::optional<Frame> frame = source.next();
+    std::optional<Frame> frame = next_of(source, listener, fed);
     listener.note_unreadable(source.problems());
     if (!frame && listener.is_interrupted()) break;
     if (!frame) return thread.finish();
     thread.feed(std::move(*frame));
+    ++fed;
+    // A frame that is taken early is old when its turn comes, while newer ones are dropped.
+    if (live) listener.wait_for_done(fed);
     if (listener.ended()) return thread.finish();  // throws what has ended it
   }
   thread.stop();

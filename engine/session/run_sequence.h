@@ -29,8 +29,12 @@ inline constexpr std::size_t kHopelessFrames = 5;
 /// the Slam, unless it was interrupted or has failed. The calling thread reads frames; SLAM and the observers
 /// run on a thread of their own (SlamThread). A frame that cannot be read or fed is skipped; a device that
 /// fails, a lack of memory, or kHopelessFrames that cannot be fed before the first one that can, end the run;
-/// so does a source of which no frame could be used. Nothing is thrown for what happens during the run, so
-/// that what was computed can be saved: Slam has it. The caller has told the observers that the run begins.
+/// so does a source of which no frame could be used. What a source gave before it throws is fed. Nothing is
+/// thrown for what happens during the run, so that what was computed can be saved: Slam has it. The caller
+/// has told the observers that the run begins.
+///
+/// Of a source whose frames come in their own time (FrameSource::live) the next one is taken when the one
+/// before is done, so that it is the newest.
 ///
 /// When `stop` is asked for, the run ends soon: no further frame is read, and mapping stops between two
 /// steps.

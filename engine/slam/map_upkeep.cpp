@@ -58,8 +58,25 @@ std::vector<int> MapUpkeep::plan_both(int back_at) {
   return order;
 }
 
-void MapUpkeep::optimise(const std::vector<int>& order, const std::vector<int>& refined,
-                         FrameReport& report) {
+void MapUpkeep::give_time(double milliseconds) {
+  until_.reset();
+  if (!(milliseconds > 0)) return;
+  using Clock = std::chrono::steady_clock;
+  until_ = Clock::now() + std::chrono::duration_cast<Clock::duration>(
+                              std::chrono::duration<double, std::milli>(milliseconds));
+}
+
+MappingLimit MapUpkeep::limit(double share) const {
+  MappingLimit limit{stop_};
+  if (!until_) return limit;
+  const auto now = std::chrono::steady_clock::now();
+  const auto part = std::chrono::duration<double>(*until_ - now) * share;
+  limit.until = now + std::chrono::duration_cast<std::chrono::steady_clock::duration>(part);
+  return limit;
+}
+
+void MapUpkeep::optimise(const std::vector<int>& order, const std::vector<int>& refined, FrameReport& report,
+                         double share) {
   std::vector<MappingView> views;
   std::map<int, int> view_of_keyframe;
   std::vector<int> steps;
@@ -70,7 +87,7 @@ void MapUpkeep::optimise(const std::vector<int>& order, const std::vector<int>& 
                        std::find(refined.begin(), refined.end(), k) != refined.end(), keyframes_[k].gains});
     steps.push_back(entry->second);
   }
-  const MappingResult result = engine_.optimise(views, steps, settings_.mapping, pixel_, stop_);
+  const MappingResult result = engine_.optimise(views, steps, settings_.mapping, pixel_, limit(share));
   for (const auto& [k, view] : view_of_keyframe) keyframes_.move(k, views[view].camera.world_to_camera);
   report.mapping_iterations += result.iterations;
   report.mapping_ms += result.milliseconds;

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <chrono>
+#include <optional>
 #include <random>
 #include <stop_token>
 #include <utility>
@@ -52,8 +54,14 @@ class MapUpkeep {
   /// has come back to, in turns. What they see is on the device then.
   std::vector<int> plan_both(int back_at);
 
-  /// Optimises the map over these keyframes, one step each, and the poses of those of `refined`.
-  void optimise(const std::vector<int>& order, const std::vector<int>& refined, FrameReport& report);
+  /// What mapping does from here on ends after so many milliseconds, as far as steps can be left out: all but
+  /// one of each call. 0: it has the time it takes.
+  void give_time(double milliseconds);
+
+  /// Optimises the map over these keyframes, one step each, and the poses of those of `refined`; takes up to
+  /// `share` of the time that is left.
+  void optimise(const std::vector<int>& order, const std::vector<int>& refined, FrameReport& report,
+                double share = 1);
   /// Takes the opacity from Gaussians that are uncertain over these keyframes.
   void judge(const std::vector<int>& members, FrameReport& report);
   /// Splits, clones and removes Gaussians.
@@ -61,7 +69,10 @@ class MapUpkeep {
 
  private:
   SplatEngine& engine_;
+  MappingLimit limit(double share) const;
+
   const std::stop_token stop_;
+  std::optional<std::chrono::steady_clock::time_point> until_;  ///< the end of the time for mapping
   const SlamSettings& settings_;
   KeyframeGraph& keyframes_;
   ActiveRegion region_;

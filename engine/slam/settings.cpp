@@ -128,6 +128,7 @@ void SlamSettings::bind(ConfigSchema& schema) {
   schema.add("map_device_mb", &map_device_mb, Range{1, 1e6});
   schema.add("first_iterations", &first_iterations, kSteps);
   schema.add("mapping_iterations", &mapping_iterations, kSteps);
+  schema.add("budget_ms", &budget_ms, Range{0, 1e6});
   schema.add("depth_model", &depth_model,
              Choices<DepthModel>{{"centre", DepthModel::Centre}, {"plane", DepthModel::Plane}});
   bind_tracking(schema, tracking);

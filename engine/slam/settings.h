@@ -64,6 +64,7 @@ struct SlamSettings {
   double map_device_mb = 2048;
   int first_iterations = 50;
   int mapping_iterations = 25;
+  double budget_ms = 0;
   DepthModel depth_model = DepthModel::Plane;
   TrackingSettings tracking;
   MappingSettings mapping;

@@ -20,6 +20,7 @@ FrameReport Slam::feed(const Frame& taken, const Tracked& tracked) {
   Turn turn(s);
   s.check_usable();
   s.check_images(taken);
+  s.upkeep.give_time(s.settings.budget_ms);
   Frame frame = s.within_reach(taken);
   const bool first = s.history.empty();
   ColourGrid grid = s.look(frame);
@@ -67,6 +68,7 @@ void Slam::finish() {
   Turn turn(s);
   if (s.finished) return;
   s.check_usable();
+  s.upkeep.give_time(0);
   if (s.pending && s.history.last_report().state == TrackingState::Good) {
     s.pending->sighting.descriptor = s.keyframes.describe(s.pending->frame);
     s.pending->sighting.features = place_features(s.pending->frame, s.intrinsics);
@@ -100,6 +102,7 @@ void Slam::change(const SlamSettings& settings) {
   current.lost = settings.lost;
   current.light = settings.light;
   current.mapping_iterations = settings.mapping_iterations;
+  current.budget_ms = settings.budget_ms;
   current.keyframes.interval = settings.keyframes.interval;
   current.keyframes.valid_below = settings.keyframes.valid_below;
 }

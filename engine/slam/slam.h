@@ -82,8 +82,8 @@ class Slam {
   bool usable() const;
 
   /// From the next frame on, takes the settings of tracking, mapping, spawning, densification, light and the
-  /// loss of tracking, the mapping steps per keyframe, and when a frame becomes a keyframe; all others stay
-  /// as they were at the beginning.
+  /// loss of tracking, the mapping steps per keyframe and the time that a frame has, and when a frame becomes
+  /// a keyframe; all others stay as they were at the beginning.
   void change(const SlamSettings& settings);
 
   /// Poses of all frames so far, camera to world, in the first camera's frame. Keyframes have their refined

@@ -179,6 +179,7 @@ void Slam::Implementation::begin_map(const Frame& frame, Sighting sighting) {
 }
 
 void Slam::Implementation::map_first(const Frame& frame) {
+  upkeep.give_time(0);  // all later frames are tracked by what the first one's mapping makes
   FrameReport& report = history.last_report();
   upkeep.begin(frame);
   const int half = settings.first_iterations / 2;
@@ -210,7 +211,7 @@ void Slam::Implementation::map_keyframe(const Frame& frame, Sighting sighting) {
   upkeep.spawn(mapped);
   const KeyframeWindow window = keyframes.choose_window(upkeep.near());
   const MappingPlan plan = upkeep.plan(window);
-  upkeep.optimise(plan.first_half, plan.refined, report);
+  upkeep.optimise(plan.first_half, plan.refined, report, 0.5);
   upkeep.judge(window.members, report);
   upkeep.densify();
   upkeep.optimise(plan.second_half, plan.refined, report);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -16,6 +17,16 @@ class Recording;
 struct SkippedFrame {
   int index = 0;       ///< position in the original sequence
   std::string reason;  ///< one line that names the file
+};
+
+/// What a source whose frames come in their own time has counted so far.
+struct LiveCounts {
+  uint64_t arrived = 0;  ///< frames that came whole
+  uint64_t dropped = 0;  ///< of these, those that a newer one took the place of before anybody was ready
+  double seconds = 0;    ///< from the first that arrived to the last
+
+  /// Frames a second that arrived; 0 where fewer than two did.
+  double rate() const { return arrived > 1 && seconds > 0 ? static_cast<double>(arrived - 1) / seconds : 0; }
 };
 
 /// Where RGB-D frames come from: a recording, a camera, or a stream of selected frames of either. They come
@@ -59,6 +70,11 @@ class FrameSource {
   /// in the frame of the former becomes one in the frame of the latter. They differ where depth was
   /// registered to a colour camera and the truth is that of the depth camera.
   virtual Pose tracked_to_reference() const { return Pose::Identity(); }
+
+  /// What has come of a source whose frames do not wait until they are asked for: next() gives the newest
+  /// one, and whoever asks should be ready to work on it at once. nullopt of all others. May be called from
+  /// any thread, and is then of that moment.
+  virtual std::optional<LiveCounts> live() const { return std::nullopt; }
 
   /// Where every frame can be read again, by its Frame::index and at its original size; null where frames are
   /// gone once they were given, as those of a live source.

@@ -38,14 +38,6 @@ std::optional<int> count_selected(const FrameSource& source, const FrameSelectio
   return selection.frames == 0 ? available : std::min(available, selection.frames);
 }
 
-Intrinsics scaled_intrinsics(const FrameSource& source, double scale) {
-  const Intrinsics intrinsics = source.intrinsics().scaled(scale);
-  if (intrinsics.width < 1 || intrinsics.height < 1) {
-    throw InputError(fmt::format("an image scale of {} leaves no pixel of {}", scale, source.name()));
-  }
-  return intrinsics;
-}
-
 /// What became of one selected frame.
 struct Decoded {
   int index = 0;
@@ -67,6 +59,16 @@ LoadedFrame decode(Load load) {
 
 }  // namespace
 
+Intrinsics selected_intrinsics(const FrameSource& source, const FrameSelection& selection) {
+  check(selection);
+  const Intrinsics intrinsics = source.intrinsics().scaled(selection.scale);
+  if (intrinsics.width < 1 || intrinsics.height < 1) {
+    throw InputError(
+        fmt::format("an image scale of {} leaves no pixel of {}", selection.scale, source.name()));
+  }
+  return intrinsics;
+}
+
 /// The decoding thread and the queue between it and the consumer.
 struct FrameStream::Decoder {
   /// `ordered` is the source where it has to be read front to back, else null.
@@ -75,7 +77,7 @@ struct FrameStream::Decoder {
         in_order(ordered),
         selection(wanted),
         count(count_selected(from, wanted)),
-        intrinsics(scaled_intrinsics(from, wanted.scale)),
+        intrinsics(selected_intrinsics(from, wanted)),
         thread([this] { run(); }) {}
 
   ~Decoder() {
@@ -258,6 +260,10 @@ std::vector<std::string> FrameStream::warnings() const {
 
 Pose FrameStream::tracked_to_reference() const {
   return decoder_->source.tracked_to_reference();
+}
+
+std::optional<LiveCounts> FrameStream::live() const {
+  return decoder_->source.live();
 }
 
 const Recording* FrameStream::recording() const {

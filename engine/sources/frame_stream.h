@@ -22,6 +22,10 @@ struct FrameSelection {
       0;  ///< gives up after so many frames that cannot be read before the first that can; 0: never
 };
 
+/// The intrinsics of selected frames: those of the source, scaled. Throws InputError where the selection
+/// makes no sense by itself or leaves no pixel.
+Intrinsics selected_intrinsics(const FrameSource& source, const FrameSelection& selection);
+
 /// Streams selected frames of a source in order, resized, decoded ahead on a thread of its own. One consumer.
 class FrameStream : public FrameSource {
  public:
@@ -57,6 +61,7 @@ class FrameStream : public FrameSource {
   std::vector<std::string> assumptions() const override;
   std::vector<std::string> warnings() const override;
   Pose tracked_to_reference() const override;
+  std::optional<LiveCounts> live() const override;
   /// The source's: all of its frames, at their original size.
   const Recording* recording() const override;
 

@@ -11,8 +11,8 @@ constexpr double kOneClock = 0.1;  // seconds that stamps of one frame may be ap
 
 }  // namespace
 
-double Recording::depth_after(int i) const {
-  const double after = depth_timestamp(i) - timestamp(i);
+double depth_after(double colour_stamp, double depth_stamp) {
+  const double after = depth_stamp - colour_stamp;
   return std::abs(after) <= kOneClock ? after : 0;
 }
 

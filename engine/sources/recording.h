@@ -15,6 +15,10 @@ struct LoadedFrame {
       problem;  ///< empty where there is a frame; else one line that names the file and what is wrong with it
 };
 
+/// Seconds from the stamp of a colour image to that of its depth image; 0 where they are so far apart (0.1 s)
+/// that they are of two clocks.
+double depth_after(double colour_stamp, double depth_stamp);
+
 /// A source whose frames can be read again, in any order: a recorded or a synthetic RGB-D sequence. But for
 /// the place that next() has reached it never changes: load() may be called from any thread.
 class Recording : public FrameSource {
@@ -34,9 +38,8 @@ class Recording : public FrameSource {
   /// Seconds; when the depth image of frame `i` was taken, where the sequence says so, else timestamp(i).
   virtual double depth_timestamp(int i) const { return timestamp(i); }
 
-  /// Frame::depth_after of frame `i`; 0 where its stamps are so far apart (0.1 s) that they are of two
-  /// clocks.
-  double depth_after(int i) const;
+  /// Frame::depth_after of frame `i`, by its stamps.
+  double depth_after(int i) const { return surefield::depth_after(timestamp(i), depth_timestamp(i)); }
 
   /// Reads and undistorts frame `i` at the original size, 0 <= i < count(). A missing or corrupt image is no
   /// exception: the caller skips the frame, counts it and reports the problem. Depth is not cut at any

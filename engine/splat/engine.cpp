@@ -95,15 +95,17 @@ struct SplatEngine::Implementation {
   /// Returns how many steps were done.
   std::size_t run_steps(std::span<const MappingView> views, std::span<CameraVariable> view_cameras,
                         std::span<const int> order, const MappingSettings& settings, double pixel,
-                        const std::stop_token& stop) {
+                        const MappingLimit& limit) {
     GaussianMap& changed = change_map();
     rasteriser.lists.forget();
     while (kept_lists.size() < kKeptLists) kept_lists.emplace_back(device);
     std::size_t at_hand = 0;
     gpu::Recorder recorder(device);
-    for (std::size_t begin = 0; begin < order.size(); begin += kMappingBatch) {
-      if (stop.stop_requested()) return begin;
-      const auto batch = order.subspan(begin, std::min(kMappingBatch, order.size() - begin));
+    // Where time is short it is looked at after each step.
+    const std::size_t most = limit.until ? 1 : kMappingBatch;
+    for (std::size_t begin = 0; begin < order.size(); begin += most) {
+      if (limit.reached(begin)) return begin;
+      const auto batch = order.subspan(begin, std::min(most, order.size() - begin));
       rasteriser.lists.submit(recorder, batch.size(), [&](std::size_t step) {
         const MappingView& view = views[batch[step]];
         CameraVariable& camera = view_cameras[batch[step]];
@@ -233,11 +235,11 @@ void SplatEngine::keep_render() {
 
 MappingResult SplatEngine::optimise(std::span<MappingView> views, std::span<const int> order,
                                     const MappingSettings& settings, double pixel,
-                                    const std::stop_token& stop) {
+                                    const MappingLimit& limit) {
   const auto begin = std::chrono::steady_clock::now();
   Implementation& i = *implementation_;
   const std::span<CameraVariable> cameras = i.cameras_of(views);
-  const std::size_t done = i.run_steps(views, cameras, order, settings, pixel, stop);
+  const std::size_t done = i.run_steps(views, cameras, order, settings, pixel, limit);
   for (std::size_t v = 0; v < views.size(); ++v)
     if (views[v].refine_pose) views[v].camera.world_to_camera = pose_of(cameras[v].camera.download(1)[0]);
 

@@ -3,7 +3,6 @@
 #include <cstdint>
 #include <memory>
 #include <span>
-#include <stop_token>
 #include <string>
 #include <vector>
 
@@ -80,9 +79,9 @@ class SplatEngine {
 
   /// Optimises the map over views[order[0]], views[order[1]], ..., one step each, and the poses of the views
   /// that ask for it. `pixel`, the metres that one covers at the scene's distance, scales the rate of the
-  /// centres. Where `stop` is asked for, the steps that remain are left out.
+  /// centres. Where `limit` is reached, the steps that remain are left out.
   MappingResult optimise(std::span<MappingView> views, std::span<const int> order,
-                         const MappingSettings& settings, double pixel, const std::stop_token& stop = {});
+                         const MappingSettings& settings, double pixel, const MappingLimit& limit = {});
 
   /// Computes the uncertainty of the Gaussians that dominate pixels of the views (paper eq. 13) and lowers
   /// the opacity of the uncertain ones. Does nothing where `settings` says that none is judged.

@@ -1,7 +1,10 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <chrono>
 #include <cstdint>
+#include <optional>
+#include <stop_token>
 #include <string>
 #include <vector>
 
@@ -127,6 +130,18 @@ struct MappingView {
   Camera camera;  ///< the pose is refined in place where `refine_pose` says so
   bool refine_pose = false;
   Eigen::Vector3f gains = Eigen::Vector3f::Ones();  ///< times its colours are those of the map
+};
+
+/// When the steps of a mapping call end before all are done.
+struct MappingLimit {
+  std::stop_token stop;
+  /// From then on no further step begins, but for the first; nullopt: the call has the time it takes.
+  std::optional<std::chrono::steady_clock::time_point> until = std::nullopt;
+
+  /// Whether no step may follow the `done` ones.
+  bool reached(std::size_t done) const {
+    return stop.stop_requested() || (until && done > 0 && std::chrono::steady_clock::now() >= *until);
+  }
 };
 
 /// What a mapping call did.

@@ -7,9 +7,11 @@
 
 #include "engine/formats/map_file.h"
 #include "engine/formats/triangle_mesh.h"
+#include "engine/io/files.h"
 #include "engine/io/images.h"
 #include "engine/types/gaussian_cloud.h"
 #include "tests/support/log_writers.h"
+#include "tests/support/stream_writer.h"
 
 using namespace surefield;
 
@@ -60,13 +62,29 @@ void write_logs(const std::filesystem::path& root) {
   }
 }
 
+/// A framed stream with a frame of raw images and one of compressed ones.
+std::string small_stream(const std::filesystem::path& colour, const std::filesystem::path& depth) {
+  test::HeaderToSend header;
+  header.width = 7;
+  header.height = 5;
+  test::FrameToSend raw, packed;
+  raw.colour.resize(3 * 5 * 7);
+  raw.depth.resize(2 * 5 * 7);
+  packed.stamp = 1;
+  packed.colour_kind = 3;
+  packed.depth_kind = 1;
+  packed.colour = read_file(colour);
+  packed.depth = read_file(depth);
+  return header.message() + raw.message() + packed.message() + test::end_message();
+}
+
 }  // namespace
 
 int main(int count, char** arguments) {
   if (count != 2) return 2;
   const std::filesystem::path root = arguments[1];
   for (const char* reader :
-       {"map_ply", "map_spz", "mesh", "colour", "depth", "tiff", "mcap", "bag", "db3", "messages"})
+       {"map_ply", "map_spz", "mesh", "colour", "depth", "tiff", "mcap", "bag", "db3", "messages", "frame_stream"})
     std::filesystem::create_directories(root / reader);
   const GaussianCloud cloud = small_cloud();
   write_map(root / "map_ply/binary", cloud, MapFormat::Ply);
@@ -78,5 +96,7 @@ int main(int count, char** arguments) {
   write_png(root / "depth/png", cv::Mat(5, 7, CV_16UC1, cv::Scalar(1000)));
   write_tiff(root / "tiff/float", cv::Mat(5, 7, CV_32FC1, cv::Scalar(1.5)));
   write_logs(root);
+  std::ofstream(root / "frame_stream/stream", std::ios::binary)
+      << small_stream(root / "colour/png", root / "depth/png");
   std::ofstream(root / "made") << "";
 }

@@ -171,6 +171,29 @@ TEST_CASE("an interruption leaves out the mapping steps that remain, and ends a 
   CHECK(hurried.map().size() > 0);
 }
 
+TEST_CASE("of a live source the next frame is taken when the one before is done") {
+  /// Frames of which the newest wins; one of them cannot be fed.
+  class Camera : public DamagedOffice {
+   public:
+    explicit Camera(const Watcher& watcher) : watcher_(watcher) { small = 2; }
+    std::optional<LiveCounts> live() const override { return LiveCounts{}; }
+    std::optional<Frame> next() override {
+      CHECK(watcher_.told.size() + watcher_.passed_over.size() == taken_++);
+      return DamagedOffice::next();
+    }
+
+   private:
+    const Watcher& watcher_;
+    std::size_t taken_ = 0;
+  };
+  Watcher watcher;
+  Camera camera(watcher);
+  const Outcome outcome = run(camera, watcher);
+  CHECK(outcome.run.end == RunEnd::Completed);
+  CHECK(watcher.told == std::vector{0, 1, 3, 4, 5});
+  CHECK(watcher.passed_over == std::vector{2});
+}
+
 TEST_CASE("a run whose first frames cannot be used is given up, and says why once") {
   DamagedOffice source;
   Watcher watcher;

@@ -79,9 +79,10 @@ TEST_CASE("a run leaves its results, and metrics of the documented schema") {
   CHECK(settings.sensor == DepthSensor::Perfect);
 
   const nlohmann::json json = read_json(folder / "out/metrics.json");
-  CHECK(keys(json) == std::set<std::string>{"schema", "version", "run", "status", "error", "date", "program",
-                                            "device", "dataset", "frames", "time", "map", "memory", "loops",
-                                            "trajectory", "images", "skipped", "per_frame", "up"});
+  CHECK(keys(json) == std::set<std::string>{"schema", "version", "run",     "status",    "error",
+                                            "date",   "program", "device",  "dataset",   "frames",
+                                            "time",   "map",     "memory",  "loops",     "trajectory",
+                                            "live",   "images",  "skipped", "per_frame", "up"});
   CHECK(json["schema"] == "surefield-metrics");
   CHECK(json["version"] == 1);
   CHECK(contains(read_file(folder / "out/log.txt"), "run " + json["run"]["id"].get<std::string>()));

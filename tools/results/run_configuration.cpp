@@ -35,7 +35,7 @@ Dataset open_run_dataset(const RunOptions& options) {
 }
 
 RunOptions with_depth_delay(RunOptions options) {
-  if (options.depth_delay || options.dataset == kSynthetic) return options;
+  if (options.depth_delay || options.dataset == kSynthetic || !options.live.empty()) return options;
   const Dataset dataset = open_run_dataset(options);
   if (!has_depth_stamps(*dataset.recording)) return options;
   options.estimated_depth_delay = estimate_depth_delay(*dataset.recording);
@@ -44,7 +44,7 @@ RunOptions with_depth_delay(RunOptions options) {
 }
 
 std::string dataset_path(const RunOptions& options) {
-  if (options.dataset == kSynthetic) return options.dataset;
+  if (options.dataset == kSynthetic || !options.live.empty()) return options.dataset;
   const auto path = std::filesystem::weakly_canonical(options.dataset);
   return (path.has_filename() ? path : path.parent_path()).string();
 }
@@ -60,6 +60,7 @@ std::string load_settings(SlamSettings& settings, const RunOptions& options, con
     schema.load_built_in(built_in.contains(own) ? own : "base.yaml", built_in);
   }
   for (const std::string& assignment : options.assignments) schema.set(assignment);
+  if (options.budget_ms) schema.set("budget_ms=" + std::to_string(*options.budget_ms));
   return schema.dump();
 }
 

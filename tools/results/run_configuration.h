@@ -15,7 +15,12 @@ namespace surefield {
 
 /// What the user asks `surefield run` to do.
 struct RunOptions {
-  std::string dataset;  ///< a folder, or "synthetic" for the embedded sequence
+  std::string dataset;    ///< a folder, or "synthetic" for the embedded sequence; empty where `live` is not
+  std::string live;       ///< as open_live() takes it; empty: none
+  bool realtime = false;  ///< replays the dataset at its own speed
+  double speed = 1;       ///< times that
+  std::optional<double> budget_ms;  ///< the key of that name; nullopt: as it is configured
+  std::string poses;                ///< "-" or a file that poses are told to; empty: none
   std::string format = "auto";
   std::optional<double> depth_delay;                ///< seconds, see DatasetOptions; nullopt: estimated
   std::optional<DepthDelay> estimated_depth_delay;  ///< what depth_delay comes from, where it was estimated
@@ -47,7 +52,7 @@ Dataset open_run_dataset(const RunOptions& options);
 /// stamps of their own: as far as it is certain (DepthDelay::usable). Throws InputError.
 RunOptions with_depth_delay(RunOptions options);
 
-/// Where that dataset is, as it can be given to --dataset from any folder.
+/// Where that dataset is, as it can be given to --dataset from any folder; empty of a live source.
 std::string dataset_path(const RunOptions& options);
 
 /// Reads the settings that the options and the dataset's format ask for into `settings`; returns the

@@ -46,7 +46,7 @@ Json depth_delay_error(const RunRecord& record) {
 Json dataset_json(const RunRecord& record) {
   return {
       {"name", record.dataset},
-      {"path", record.dataset_path},
+      {"path", record.dataset_path.empty() ? Json(nullptr) : Json(record.dataset_path)},
       {"format", record.format},
       {"width", record.intrinsics.width},
       {"height", record.intrinsics.height},
@@ -90,6 +90,20 @@ Json time_json(const RunRecord& record) {
           {"mapping_ms_per_iteration", mapping.milliseconds_each()}};
 }
 
+Json latency_json(const std::optional<Latency>& latency) {
+  if (!latency) return nullptr;
+  return {{"median", latency->median}, {"p95", latency->most}};
+}
+
+Json live_json(const std::optional<LiveRecord>& live) {
+  if (!live) return nullptr;
+  return {{"arrived", live->counts.arrived},
+          {"dropped", live->counts.dropped},
+          {"rate_hz", live->counts.rate()},
+          {"latency_ms", latency_json(live->from_arrival)},
+          {"stamp_latency_ms", latency_json(live->from_stamp)}};
+}
+
 }  // namespace
 
 std::string metrics_json(const RunRecord& record, const nlohmann::ordered_json& files) {
@@ -105,6 +119,7 @@ std::string metrics_json(const RunRecord& record, const nlohmann::ordered_json& 
   json["dataset"] = dataset_json(record);
   json["frames"] = frames_json(record);
   json["time"] = time_json(record);
+  json["live"] = live_json(record.live);
   json["map"] = {{"gaussians", record.gaussians()},
                  {"megabytes", static_cast<double>(record.engine.map_bytes) / kMegabyte}};
   json["up"] = record.up ? Json({{"direction", {record.up->up.x(), record.up->up.y(), record.up->up.z()}},

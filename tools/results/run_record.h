@@ -18,12 +18,25 @@ namespace surefield {
 
 inline constexpr double kMegabyte = 1e6;  ///< bytes
 
+/// How long frames took, milliseconds: half of them at most `median`, 95 of 100 at most `most`.
+struct Latency {
+  double median = 0;
+  double most = 0;
+};
+
+/// What a live source, or a replay at its own speed, has come to.
+struct LiveRecord {
+  LiveCounts counts;
+  std::optional<Latency> from_arrival;  ///< until the pose was known; nullopt where no frame has one
+  std::optional<Latency> from_stamp;    ///< the same from the stamp, where that is of this machine's clock
+};
+
 /// Everything that is known about a run when it has ended.
 struct RunRecord {
   std::optional<RunEnd> end;  ///< nullopt: it is still running
   std::string error;          ///< why it failed
   std::string dataset;
-  std::string dataset_path;  ///< where it was read from, absolute; or "synthetic"
+  std::string dataset_path;  ///< where it was read from, absolute; or "synthetic"; empty of a live source
   std::string format;
   double depth_delay = 0;                           ///< seconds, added to the stamps of depth images
   std::optional<DepthDelay> estimated_depth_delay;  ///< where depth_delay comes from
@@ -42,6 +55,7 @@ struct RunRecord {
   Trajectory online;                ///< the same, as they were when each frame came
   Trajectory keyframes;             ///< of the tracked camera
   std::vector<Loop> loops;          ///< places that looked known
+  std::optional<LiveRecord> live;   ///< nullopt where no frame could be dropped
   double setup_seconds = 0;         ///< opening the device, building its programs
   double seconds = 0;               ///< from the first frame asked for to the last one done
   EngineReport engine;

@@ -51,6 +51,22 @@ std::string depth_delay_line(const RunRecord& record) {
                      error);
 }
 
+/// Only of a live source, or a replay at its own speed.
+std::string live_lines(const RunRecord& record) {
+  if (!record.live) return {};
+  const LiveCounts& counts = record.live->counts;
+  std::string text = fmt::format("live             {} frames came, {:.1f} a second; {} were dropped\n",
+                                 counts.arrived, counts.rate(), counts.dropped);
+  const auto line = [&](const char* title, const std::optional<Latency>& latency) {
+    if (latency)
+      text += fmt::format("{:<16} {:.0f} ms until the pose is known, 95 % within {:.0f} ms\n", title,
+                          latency->median, latency->most);
+  };
+  line("from arrival", record.live->from_arrival);
+  line("from stamp", record.live->from_stamp);
+  return text;
+}
+
 std::string skipped_lines(const RunRecord& record) {
   std::string text;
   for (std::size_t i = 0; i < record.skipped.size() && i < kNamedFrames; ++i) {
@@ -103,6 +119,7 @@ int count_loops(const std::vector<Loop>& loops) {
 std::string run_summary(const RunRecord& record) {
   std::string text = frames_line(record);
   text += skipped_lines(record);
+  text += live_lines(record);
   text += depth_delay_line(record);
   if (!record.frames.empty())
     text += fmt::format("poses known      {:.1f} % of the frames\n", 100 * record.pose_share());

@@ -34,7 +34,10 @@ constexpr const char* kRunExamples =
     "  surefield run --dataset walk.mcap --out out/walk --colour-topic /camera/color/image_raw\n"
     "  surefield run --dataset Replica/room0 --out out/room0 --set gauss_newton.renders=5 --set seed=2\n"
     "  surefield run --dataset synthetic --out out/demo --film out/demo.mp4\n"
-    "  surefield run --dataset synthetic --out out/demo --viewer\n";
+    "  surefield run --dataset synthetic --out out/demo --viewer\n"
+    "  surefield run --dataset rgbd_dataset_freiburg1_desk --out out/desk --realtime --budget-ms 33\n"
+    "  examples/send_tum.py rgbd_dataset_freiburg1_desk - | surefield run --live - --out out/desk\n"
+    "  surefield run --live unix:/tmp/camera --out out/camera --viewer\n";
 
 /// What --format may be here: the embedded sequence has a format of its own.
 std::vector<std::string> run_formats() {
@@ -62,12 +65,31 @@ int run_watched(const RunOptions& options) {
 void add_run(CLI::App& program, Action& action) {
   auto options = std::make_shared<RunOptions>();
   CLI::App* run =
-      program.add_subcommand("run", "Tracks the camera and builds the map of a recorded sequence");
-  run->add_option("--dataset", options->dataset,
-                  "Folder of the sequence (or a .sens, .mcap, .db3 or .bag file), or \"synthetic\" for the "
-                  "embedded one")
-      ->required();
+      program.add_subcommand("run", "Tracks the camera and builds the map of a recorded sequence, or live");
+  auto* dataset =
+      run->add_option("--dataset", options->dataset,
+                      "Folder of the sequence (or a .sens, .mcap, .db3 or .bag file), or \"synthetic\" for the embedded one");
+  auto* live = run->add_option(
+      "--live", options->live,
+      "Frames as they come, instead of a dataset: - (standard input), unix:PATH or "
+      "tcp:127.0.0.1:PORT, where a sender connects, or openni2[:URI], a camera (docs/live.md)");
+  live->excludes(dataset);
+  auto* realtime = run->add_flag(
+      "--realtime", options->realtime,
+      "Replays the dataset at its own speed; frames for which there is no time are dropped, as a "
+      "camera's (docs/live.md)");
+  run->add_option("--speed", options->speed, "With --realtime: times as fast as it was recorded")
+      ->check(CLI::PositiveNumber)
+      ->needs(realtime)
+      ->capture_default_str();
+  realtime->excludes(live);
   run->add_option("--out", options->out, "Folder of the results")->required();
+  run->add_option(
+      "--poses", options->poses,
+      "Tells each pose at once, as a line of JSON, on standard output (-) or in a file (docs/live.md)");
+  run->add_option("--budget-ms", options->budget_ms,
+                  "Milliseconds that a frame may take before mapping steps are left out: the key budget_ms")
+      ->check(CLI::NonNegativeNumber);
   run->add_option("--format", options->format, "Layout of the dataset")
       ->check(CLI::IsMember(run_formats()))
       ->capture_default_str();
@@ -127,7 +149,12 @@ void add_run(CLI::App& program, Action& action) {
       "ended with too few poses, or without one that can be trusted");
   run->add_flag("--quiet", options->quiet, "Prints warnings and errors only");
   run->footer(kRunExamples);
-  run->callback([options, &action] { action = [options] { return run_watched(*options); }; });
+  for (const char* name : {"--format", "--depth-delay", "--assume-camera", "--assume-depth-unit"})
+    run->get_option(name)->excludes(live);  // the stream says it itself
+  run->callback([options, &action] {
+    if (options->dataset.empty() && options->live.empty()) throw CLI::RequiredError("--dataset or --live");
+    action = [options] { return run_watched(*options); };
+  });
 }
 
 }  // namespace surefield

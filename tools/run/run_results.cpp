@@ -2,6 +2,7 @@
 #include "tools/run/run_results.h"
 
 #include <algorithm>
+#include <tuple>
 
 #include "engine/io/files.h"
 #include "engine/session/save_run.h"
@@ -31,15 +32,16 @@ std::optional<TrajectoryMetrics> accuracy(const Trajectory& estimate, const Traj
   }
 }
 
-/// Adds what SLAM and the ground truth, which may be null, say about a run so far.
-void complete_record(RunRecord& record, const Slam& slam, const FrameSource& source,
-                     const Trajectory* truth) {
+/// Adds what SLAM and the ground truth say about a run so far.
+void complete_record(RunRecord& record, const Slam& slam, const RunOutput& output) {
+  const auto& [source, truth, meter] = std::tie(output.source, output.truth, output.meter);
   record.frames = slam.reports();
   record.trajectory = slam.trajectory();
   record.online = slam.online_trajectory();
   record.keyframes = slam.keyframes();
   record.loops = slam.loops();
   record.engine = slam.engine_report();
+  record.live = meter.record();
   const auto errors = [&](const Trajectory& tracked) {
     return accuracy(of_reference_camera(tracked, source), truth);
   };
@@ -98,7 +100,7 @@ void save_metrics(const RunOutput& output, const RunRecord& record) {
 }  // namespace
 
 void save_state(const RunOutput& output, RunRecord& record, const Slam& slam) {
-  complete_record(record, slam, output.source, output.truth);
+  complete_record(record, slam, output);
   output.results.save("config.yaml", [&](const auto& file) { write_text(file, output.configuration); });
   save_run(output.results, slam, output.source, output.map_format);
   save_metrics(output, record);

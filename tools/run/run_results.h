@@ -6,6 +6,7 @@
 #include "engine/session/results_folder.h"
 #include "engine/session/run_observer.h"
 #include "tools/results/run_record.h"
+#include "tools/run/live_meter.h"
 #include "tools/shared/up_option.h"
 
 namespace surefield {
@@ -18,6 +19,7 @@ struct RunOutput {
   std::string configuration;
   std::string map_format;
   UpChoice up;
+  const LiveMeter& meter;
 };
 
 /// Saves what there is of a run: what `record` knows before the run is completed with what SLAM knows.

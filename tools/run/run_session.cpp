@@ -15,7 +15,9 @@
 #include "engine/types/version.h"
 #include "tools/results/run_record.h"
 #include "tools/run/cost_note.h"
+#include "tools/run/pose_stream.h"
 #include "tools/run/run_doubts.h"
+#include "tools/run/run_input.h"
 #include "tools/run/run_results.h"
 #include "tools/shared/command.h"
 #include "tools/shared/interrupt.h"
@@ -97,11 +99,12 @@ void warn_of_end(spdlog::logger& log, const RunRecord& record) {
 }
 
 /// Says what looks wrong before the first frame, and what is left out; returns whether anything looks wrong.
-bool warn_of_doubts(spdlog::logger& log, const Recording& recording, const RunOptions& options,
+bool warn_of_doubts(spdlog::logger& log, const RunInput& input, const RunOptions& options,
                     const SlamSettings& settings) {
-  const FirstLook look =
-      look_first(recording, options.selection, {settings.depth_max, reach_of(settings.sensor)});
-  for (const std::string& warning : recording.warnings()) warn(log, warning);
+  const FirstLook look = input.recording() ? look_first(*input.recording(), options.selection,
+                                                        {settings.depth_max, reach_of(settings.sensor)})
+                                           : FirstLook{implausible(input.source().intrinsics())};
+  for (const std::string& warning : input.source().warnings()) warn(log, warning);
   for (const std::string& doubt : look.doubts) warn(log, doubt);
   if (look.beyond > 0) {
     const std::string text = fmt::format("depth_max, {:g} m, leaves out {:.1f} % of the depth",
@@ -113,7 +116,7 @@ bool warn_of_doubts(spdlog::logger& log, const Recording& recording, const RunOp
 }
 
 /// Tells the log, and unless `quiet` the user, how the run went.
-void report(ResultsFolder& results, const RunRecord& record, bool quiet) {
+void report(ResultsFolder& results, const RunRecord& record, const RunOptions& options) {
   for (const std::string& message : record.engine.validation_messages) {
     results.log().error("validation: {}", message);
     say(stderr, "surefield: validation: {}\n", message);
@@ -122,7 +125,9 @@ void report(ResultsFolder& results, const RunRecord& record, bool quiet) {
   warn_of_end(results.log(), record);
   const std::string summary = run_summary(record);
   results.log().info("summary\n{}", summary);
-  if (!quiet) say(stdout, "{}results          {}\n", summary, results.path().string());
+  // Standard output belongs to the poses where they go there.
+  std::FILE* const to = options.poses == "-" ? stderr : stdout;
+  if (!options.quiet) say(to, "{}results          {}\n", summary, results.path().string());
 }
 
 /// Tells the log what runs on what, and the user, unless that wants errors only, what was assumed about the
@@ -145,6 +150,26 @@ void announce(spdlog::logger& log, const RunRecord& record, const FrameSource& s
   }
 }
 
+bool has_unix_stamps(const RunInput& input) {
+  return input.framed_stream() && input.framed_stream()->header().unix_stamps;
+}
+
+/// Has poses go back to the sender that asks for them; `stream` may be null.
+void answer_sender(PoseStream& poses, StreamSource* stream, spdlog::logger& log) {
+  if (!stream || !stream->header().wants_poses) return;
+  poses.add_sink([stream, &log](const std::string& line) {
+    const bool sent = stream->answer(line);
+    if (!sent) log.warn("the sender reads no more poses; it gets none from here on");
+    return sent;
+  });
+}
+
+/// Says where a sender has gone without a word; `stream` may be null.
+void warn_of_sender(spdlog::logger& log, const StreamSource* stream) {
+  if (stream && stream->ended_early() && !interrupted())
+    warn(log, "the sender went away without the message that ends a stream; what it sent is saved");
+}
+
 /// The exit code of a run that has ended, where it was not for an error.
 int exit_code(const ResultsFolder& results, bool stopped, bool doubtful) {
   for (const std::string& problem : results.problems()) print_error(problem);
@@ -159,14 +184,17 @@ int run_session(const RunOptions& asked, const RunObservers& observers) {
   ResultsFolder results(asked.out, asked.overwrite);
   clean_up_when_ended([&] { results.discard(); });
   const RunOptions options = with_depth_delay(asked);
-  const Dataset dataset = open_run_dataset(options);
+  PoseStream poses;
+  if (!options.poses.empty()) poses.add_place(options.poses);
+  RunInput input(options);
+  if (input.given_up()) return kInterrupted;
   SlamSettings settings;
-  const std::string configuration = load_settings(settings, options, dataset.recording->format());
+  const std::string configuration = load_settings(settings, options, input.source().format());
   FrameSelection selection = options.selection;
   selection.hopeless = static_cast<int>(kHopelessFrames);
-  FrameStream stream(*dataset.recording, selection);
-  if (warn_of_doubts(results.log(), *dataset.recording, options, settings) && options.strict)
-    return kDoubtful;
+  input.stream(selection);
+  FrameSource& stream = input.frames();
+  if (warn_of_doubts(results.log(), input, options, settings) && options.strict) return kDoubtful;
   RunRecord record = start_record(options, stream);
   record.depth_max = settings.depth_max;
   record.noise = noise_of(settings.sensor);
@@ -176,23 +204,28 @@ int run_session(const RunOptions& asked, const RunObservers& observers) {
   record.setup_seconds = seconds_since(start);
   announce(results.log(), record, stream, slam, options.quiet);
 
-  const RunOutput output{results, stream, dataset.truth(), configuration, options.map_format, options.up};
+  LiveMeter meter(has_unix_stamps(input));
+  const RunOutput output{results,    stream, input.truth(), configuration, options.map_format,
+                         options.up, meter};
   KeptKeyframes kept;
   Checkpoints checkpoints(output, record);
   CostNote cost(options.selection.scale);
-  RunObservers all = observers;
+  answer_sender(poses, input.framed_stream(), results.log());
+  RunObservers all = {&meter, &poses};  // before those that take their time
+  all.insert(all.end(), observers.begin(), observers.end());
   all.insert(all.end(), {&kept, &checkpoints});
   if (!options.quiet) all.push_back(&cost);
-  for (RunObserver* observer : all) observer->begin({stream, dataset.truth(), settings, results.log()});
+  for (RunObserver* observer : all) observer->begin({stream, input.truth(), settings, results.log()});
   const std::exception_ptr failure = run(record, stream, slam, results.log(), all, options.quiet);
+  warn_of_sender(results.log(), input.framed_stream());
   save_results(output, record, slam, kept);
   const bool stopped = interrupted();  // from here on nothing is lost where nobody reads what is said
-  if (!record.frames.empty()) report(results, record, options.quiet);
+  if (!record.frames.empty()) report(results, record, options);
   for (RunObserver* observer : all) observer->finished(slam);
   const bool doubtful = record.doubtful_end() >= kDoubtfulEnd || many_lost(record);
   const int code = exit_code(results, stopped, options.strict && doubtful);
   // A read from a disk that does not answer may last for ever.
-  if (interrupted() && !stream.idle_within(kReadPatience)) leave(code);
+  if (interrupted() && !input.idle_within(kReadPatience)) leave(code);
   if (failure) std::rethrow_exception(failure);
   return code;
 }

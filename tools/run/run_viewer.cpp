@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <chrono>
 #include <cmath>
 #include <filesystem>
 #include <future>
@@ -76,6 +77,8 @@ class ViewerObserver : public RunObserver {
   }
 
   void tracked(const Frame& frame, const FrameReport&) override {
+    if (frame.arrived)
+      latency_ms_ = std::chrono::duration<double, std::milli>(Clock::now() - *frame.arrived).count();
     if (fed_ > 0) return;
     ViewerScene scene;
     scene.status = "the first frame";
@@ -107,8 +110,8 @@ class ViewerObserver : public RunObserver {
         numbers, report.keyframe,
         [&] {
           const std::optional<int> frames = source_->size();
-          return scene(slam, fmt::format("frame {}{}{}", fed_, frames ? fmt::format(" of {}", *frames) : "",
-                                         report.lost() ? ", lost" : ""));
+          return scene(slam, fmt::format("frame {}{}{}{}", fed_, frames ? fmt::format(" of {}", *frames) : "",
+                                         report.lost() ? ", lost" : "", live_status()));
         },
         [&] { return slam.map(); });
   }
@@ -128,6 +131,14 @@ class ViewerObserver : public RunObserver {
     } catch (const InputError&) {
       // Too few poses to compare yet.
     }
+  }
+
+  /// Of a live source: how many frames come, and what becomes of them.
+  std::string live_status() const {
+    const auto counts = source_->live();
+    if (!counts) return {};
+    return fmt::format("; {:.0f} a second come, {} dropped, pose after {:.0f} ms", counts->rate(),
+                       counts->dropped, latency_ms_);
   }
 
   ViewerScene scene(const Slam& slam, std::string status) const {
@@ -160,7 +171,8 @@ class ViewerObserver : public RunObserver {
   ConfigSchema schema_;
   Clock::time_point last_ = Clock::now();
   int fed_ = 0;
-  Frame frame_;  ///< the newest
+  Frame frame_;            ///< the newest
+  double latency_ms_ = 0;  ///< of the newest frame of a live source
   float ate_cm_ = NAN;
   Eigen::Isometry3d to_estimate_ = Eigen::Isometry3d::Identity();  ///< from the world of the truth
 };
