@@ -125,8 +125,13 @@ struct McapFile {
 std::string packed(const std::string& bytes, const std::string& packing) {
   std::string out(2 * bytes.size() + 1000, '\0');
   std::size_t size = 0;
-  if (packing == "lz4") {
-    size = LZ4F_compressFrame(out.data(), out.size(), bytes.data(), bytes.size(), nullptr);
+  if (packing == "lz4" || packing == "roslz4") {
+    // ROS 1 reads no other frames than those of blocks that stand alone, with a checksum.
+    LZ4F_preferences_t ros{};
+    ros.frameInfo.blockMode = LZ4F_blockIndependent;
+    ros.frameInfo.contentChecksumFlag = LZ4F_contentChecksumEnabled;
+    size = LZ4F_compressFrame(out.data(), out.size(), bytes.data(), bytes.size(),
+                              packing == "roslz4" ? &ros : nullptr);
   } else if (packing == "zstd") {
     size = ZSTD_compress(out.data(), out.size(), bytes.data(), bytes.size(), 1);
   } else if (packing == "bz2") {
@@ -245,7 +250,7 @@ std::string bag_of(const std::vector<WrittenMessage>& messages, const LogStyle& 
     const uint64_t at = start + body.size();
     body += bag_record(
         5, bag_field("compression", style.packing) + bag_number("size", static_cast<uint32_t>(chunk.size())),
-        packed(chunk, style.packing));
+        packed(chunk, style.packing == "lz4" ? "roslz4" : style.packing));
     std::string counts;
     for (const auto& [connection, entries] : index) {
       const auto count = static_cast<uint32_t>(entries.size() / 12);

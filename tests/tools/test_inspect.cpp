@@ -178,3 +178,18 @@ TEST_CASE("inspect names what it cannot open") {
   CHECK(outcome.code == 2);
   CHECK(contains(outcome.err, "no known dataset layout"));
 }
+
+TEST_CASE("inspect lists the topics of a log, also of one without images") {
+  const auto logs = real_clip("logs");
+  if (logs.empty()) return;
+  const TemporaryFolder folder;
+  const Outcome outcome =
+      surefield_command({"inspect", (logs / "topics_and_services.db3").string()}, folder.path());
+  CHECK(outcome.code == 2);
+  CHECK(contains(outcome.out,
+                 "topics           /add_two_ints/_service_event  example_interfaces/srv/AddTwoInts_Event, 6 "
+                 "messages\n"));
+  CHECK(contains(outcome.out,
+                 "                 /parameter_events  rcl_interfaces/ParameterEvent, 7 messages\n"));
+  CHECK(contains(outcome.err, "has no topic with colour images (those with images: none); it has "));
+}
