@@ -9,10 +9,12 @@
 #include "engine/session/run_sequence.h"
 #include "engine/session/save_run.h"
 #include "engine/sources/frame_stream.h"
+#include "engine/sources/stream_source.h"
 #include "engine/types/error.h"
 #include "engine/types/gaussian_cloud.h"
 #include "tests/slam/office.h"
 #include "tests/support/input_files.h"
+#include "tests/support/stream_writer.h"
 
 using namespace surefield;
 using namespace surefield::testing;
@@ -109,6 +111,37 @@ TEST_CASE("a sequence is fed to its end, with the bits of feeding it frame by fr
   REQUIRE(outcome.trajectory.size() == trajectory.size());
   for (std::size_t i = 0; i < trajectory.size(); ++i)
     CHECK(outcome.trajectory[i].camera_to_world.matrix() == trajectory[i].camera_to_world.matrix());
+}
+
+TEST_CASE("a framed stream of which every frame counts gives the bits of the recording that was sent") {
+  const SyntheticRecording recording = office(kFrames);
+  const Intrinsics k = recording.intrinsics();
+  test::HeaderToSend header{.flags = 1,
+                            .width = static_cast<uint32_t>(k.width),
+                            .height = static_cast<uint32_t>(k.height),
+                            .camera = {k.fx, k.fy, k.cx, k.cy}};
+  std::string bytes = header.message();
+  for (int i = 0; i < kFrames; ++i) {
+    const Frame frame = *recording.load(i).frame;
+    bytes += test::FrameToSend{.stamp = frame.timestamp,
+                               .depth_kind = 2,
+                               .colour = test::pixels_of(frame.colour),
+                               .depth = test::pixels_of(frame.depth)}
+                 .message();
+  }
+  StreamSource source(std::make_unique<test::MemoryBytes>(bytes + test::end_message(), 65536));
+  FrameStream stream(source, {});
+  Watcher watcher;
+  const Outcome sent = run(stream, watcher);
+  FrameStream frames(recording, {});
+  Watcher other;
+  const Outcome read = run(frames, other);
+  CHECK(watcher.told == std::vector{0, 1, 2, 3, 4, 5});
+  REQUIRE(sent.trajectory.size() == read.trajectory.size());
+  for (std::size_t i = 0; i < sent.trajectory.size(); ++i) {
+    CHECK(sent.trajectory[i].timestamp == read.trajectory[i].timestamp);
+    CHECK(sent.trajectory[i].camera_to_world.matrix() == read.trajectory[i].camera_to_world.matrix());
+  }
 }
 
 TEST_CASE("frames that cannot be read or fed are skipped and told, and the run goes on") {
