@@ -35,6 +35,7 @@ void add_commands(CLI::App& program, surefield::Action& action) {
   surefield::add_report(program, action);
   surefield::add_tables(program, action);
   surefield::add_inspect(program, action);
+  surefield::add_convert(program, action);
   surefield::add_fetch(program, action);
   surefield::add_render(program, action);
   surefield::add_view(program, action);

@@ -36,6 +36,7 @@ void add_export(CLI::App& program, Action& action);
 void add_graph(CLI::App& program, Action& action);
 void add_mesh(CLI::App& program, Action& action);
 void add_synth(CLI::App& program, Action& action);
+void add_convert(CLI::App& program, Action& action);
 void add_places(CLI::App& program, Action& action);
 void add_vocabulary(CLI::App& program, Action& action);
 void add_basin(CLI::App& program, Action& action);
