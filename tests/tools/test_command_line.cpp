@@ -40,7 +40,9 @@ TEST_CASE("help teaches every subcommand with an example") {
 TEST_CASE("wrong use ends with one line and exit code 2") {
   CHECK(contains(refusal({}), "subcommand is required; see surefield --help"));
   CHECK(contains(refusal({"walk"}), "there is no subcommand walk"));
-  CHECK(contains(refusal({"run"}), "--dataset or --live is required; see surefield run --help"));
+  CHECK(contains(refusal({"run"}), "--out is required; see surefield run --help"));
+  CHECK(
+      contains(refusal({"run", "--out", "x"}), "--dataset or --live is required; see surefield run --help"));
   CHECK(contains(refusal({"run", "--dataset", "synthetic", "--out", "x", "--colour"}), "--colour"));
   CHECK(contains(refusal({"run", "--dataset", "synthetic", "--out", "x", "--frames", "many"}), "--frames"));
   CHECK(contains(refusal({"run", "--dataset", "synthetic", "--out", "x", "--format", "kitti"}), "kitti"));
