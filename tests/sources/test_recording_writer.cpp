@@ -23,14 +23,16 @@ const Intrinsics kCamera{40, 30, 41.25, 41.5, 19.625, 14.5};
 
 /// Noise with holes; depth in steps of kUnit.
 WrittenFrame some_frame(int i, double depth_after = 0) {
-  std::mt19937 random(i + 1);
+  std::mt19937 random(static_cast<uint32_t>(i + 1));
   Frame frame{.index = i, .timestamp = 1305031102.175304 + i / 30.0};
   frame.colour = cv::Mat(30, 40, CV_8UC3);
   frame.depth = cv::Mat(30, 40, CV_32FC1);
   for (int v = 0; v < 30; ++v)
     for (int u = 0; u < 40; ++u) {
-      frame.colour.at<cv::Vec3b>(v, u) = cv::Vec3b(random() % 256, random() % 256, random() % 256);
-      frame.depth.at<float>(v, u) = random() % 5 ? static_cast<float>((random() % 65536) * kUnit) : 0.0f;
+      frame.colour.at<cv::Vec3b>(v, u) = cv::Vec3b(
+          static_cast<uint8_t>(random()), static_cast<uint8_t>(random()), static_cast<uint8_t>(random()));
+      frame.depth.at<float>(v, u) =
+          random() % 5 ? static_cast<float>(static_cast<double>(random() % 65536) * kUnit) : 0.0f;
     }
   return {frame, frame.timestamp + depth_after};
 }
