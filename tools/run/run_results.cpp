@@ -34,16 +34,15 @@ std::optional<TrajectoryMetrics> accuracy(const Trajectory& estimate, const Traj
 
 /// Adds what SLAM and the ground truth say about a run so far.
 void complete_record(RunRecord& record, const Slam& slam, const RunOutput& output) {
-  const auto& [source, truth, meter] = std::tie(output.source, output.truth, output.meter);
   record.frames = slam.reports();
   record.trajectory = slam.trajectory();
   record.online = slam.online_trajectory();
   record.keyframes = slam.keyframes();
   record.loops = slam.loops();
   record.engine = slam.engine_report();
-  record.live = meter.record();
+  record.live = output.meter.record();
   const auto errors = [&](const Trajectory& tracked) {
-    return accuracy(of_reference_camera(tracked, source), truth);
+    return accuracy(of_reference_camera(tracked, output.source), output.truth);
   };
   record.accuracy = {errors(record.trajectory), errors(record.online), errors(record.keyframes)};
 }
