@@ -17,17 +17,6 @@ double rounded(double value) {
   return std::round(value * 1e4) / 1e4;
 }
 
-const char* name_of(TrackingState state) {
-  switch (state) {
-    case TrackingState::Good:
-      return "good";
-    case TrackingState::Poor:
-      return "poor";
-    default:
-      return "lost";
-  }
-}
-
 double degrees(double radians) {
   return radians * 180 / std::numbers::pi;
 }
@@ -42,6 +31,17 @@ std::string covariance_text(const PoseCovariance& covariance) {
 }
 
 }  // namespace
+
+const char* name_of(TrackingState state) {
+  switch (state) {
+    case TrackingState::Good:
+      return "good";
+    case TrackingState::Poor:
+      return "poor";
+    default:
+      return "lost";
+  }
+}
 
 nlohmann::ordered_json frame_json(const FrameReport& frame) {
   return {{"index", frame.index},

@@ -8,6 +8,9 @@
 
 namespace surefield {
 
+/// "good", "poor" or "lost".
+const char* name_of(TrackingState state);
+
 /// What is known about one frame; the keys are the columns of frames.csv too.
 nlohmann::ordered_json frame_json(const FrameReport& frame);
 

@@ -9,7 +9,11 @@
 namespace surefield {
 
 PromptStream::PromptStream(FrameSource& source, const FrameSelection& selection)
-    : source_(source), selection_(selection), intrinsics_(selected_intrinsics(source, selection)) {}
+    : source_(source), selection_(selection), intrinsics_(selected_intrinsics(source, selection)) {
+  if (selection.start < 0)
+    throw InputError(
+        fmt::format("start is {}, but the frames of {} begin at 0", selection.start, source.name()));
+}
 
 std::optional<Frame> PromptStream::next() {
   while (selection_.frames == 0 || given_ < selection_.frames) {

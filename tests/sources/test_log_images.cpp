@@ -105,9 +105,9 @@ TEST_CASE("colours of all encodings become RGB") {
   }
   const std::pair<const char*, cv::Point> patterns[] = {
       {"bayer_rggb8", {0, 0}}, {"bayer_bggr8", {1, 1}}, {"bayer_gbrg8", {0, 1}}, {"bayer_grbg8", {1, 0}}};
-  for (const auto& [encoding, red] : patterns) {
-    CAPTURE(encoding);
-    CHECK(colour_of_even(encoding, only_red(red)) == cv::Vec3b(200, 0, 0));
+  for (const auto& pattern : patterns) {
+    CAPTURE(pattern.first);
+    CHECK(colour_of_even(pattern.first, only_red(pattern.second)) == cv::Vec3b(200, 0, 0));
   }
 }
 

@@ -143,6 +143,7 @@ TEST_CASE("a stream of a live source selects and resizes, and asks for no frame 
   CHECK(stream.next()->index == 4);
   CHECK_FALSE(stream.next());
   CHECK(contains(input_error([&] { PromptStream(source, {.stride = 0}); }), "stride"));
+  CHECK(contains(input_error([&] { PromptStream(source, {.start = -1}); }), "start is -1"));
 }
 
 TEST_CASE("a live source of which no frame can be read is given up") {

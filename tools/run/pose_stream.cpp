@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "engine/session/frame_table.h"
 #include "engine/types/error.h"
 #include "tools/shared/say.h"
 
@@ -13,17 +14,6 @@ namespace surefield {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-const char* name(TrackingState state) {
-  switch (state) {
-    case TrackingState::Good:
-      return "good";
-    case TrackingState::Poor:
-      return "poor";
-    default:
-      return "lost";
-  }
-}
 
 Json numbers(const Pose& camera_to_world) {
   const Eigen::Vector3d t = camera_to_world.translation();
@@ -76,7 +66,7 @@ void PoseStream::begin(const RunStart& start) {
 void PoseStream::tracked(const Frame&, const FrameReport& report) {
   write(line_of({{"index", report.index},
                  {"stamp", report.timestamp},
-                 {"state", name(report.state)},
+                 {"state", name_of(report.state)},
                  {"keyframe", report.keyframe},
                  {"map_revision", revision_},
                  {"camera_to_world", numbers(report.world_to_camera.inverse() * reference_to_tracked_)}}));

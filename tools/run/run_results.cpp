@@ -2,7 +2,6 @@
 #include "tools/run/run_results.h"
 
 #include <algorithm>
-#include <tuple>
 
 #include "engine/io/files.h"
 #include "engine/session/save_run.h"
