@@ -104,7 +104,8 @@ TEST_CASE("a stream of which every frame counts gives what the folder gives, bit
                                        sequence.intrinsics());
   else
     MESSAGE("skipped: send_tum.py, as there is no python3");
-  for (const auto& [name, sender] : senders) {
+  for (const auto& named : senders) {
+    const std::string &name = named.first, &sender = named.second;
     CAPTURE(name);
     const std::string poses = (folder / (name + ".jsonl")).string();
     arguments = run_over({"--live", "-", "--poses", poses}, folder / name);
