@@ -26,7 +26,8 @@ struct WrittenFrame {
 
 /// Writes a recording in a layout that open_dataset() reads, frame by frame. What is read back has the same
 /// bits: pixels, depths and stamps; where the layout cannot hold them, write() throws InputError that says
-/// what, unless `lossy` was asked for. Not thread-safe.
+/// what, unless `lossy` was asked for. A writer that is destroyed before finish() leaves nothing behind. Not
+/// thread-safe.
 class RecordingWriter {
  public:
   virtual ~RecordingWriter() = default;

@@ -68,6 +68,14 @@ class FolderWriter : public RecordingWriter {
     });
   }
 
+  /// What was broken off is no recording: the folder, which was empty, is gone again.
+  ~FolderWriter() override {
+    std::error_code ignored;
+    if (!finished_) std::filesystem::remove_all(folder_, ignored);
+  }
+  FolderWriter(const FolderWriter&) = delete;
+  FolderWriter& operator=(const FolderWriter&) = delete;
+
  protected:
   /// Writes both images; returns their name, the same in both folders.
   std::string write_images(const Frame& frame) {
@@ -80,8 +88,10 @@ class FolderWriter : public RecordingWriter {
   void write_list(const char* name, const std::string& rows) const {
     write_file(folder_ / name, [&](std::ostream& stream) { stream << rows; });
   }
-  void write_poses(const char* name, const std::optional<Trajectory>& truth) const {
+  /// The last that is written.
+  void write_poses(const char* name, const std::optional<Trajectory>& truth) {
     if (truth) write_trajectory(folder_ / name, *truth);
+    finished_ = true;
   }
 
   const std::filesystem::path folder_;
@@ -90,6 +100,7 @@ class FolderWriter : public RecordingWriter {
 
  private:
   int written_ = 0;
+  bool finished_ = false;
 };
 
 class TumWriter : public FolderWriter {

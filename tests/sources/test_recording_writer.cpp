@@ -122,6 +122,7 @@ TEST_CASE("what a layout cannot hold is refused, and rounded where that was aske
     return input_error([&] { write(folder / name, recording)->write(frame); });
   };
   CHECK(contains(error(write_tum, "a"), "2 depths that are no steps of 0.0002 m"));
+  CHECK_FALSE(std::filesystem::exists(folder / "a"));
   recording.lossy = true;
   const auto writer = write_plain(folder / "b", recording);
   frame.depth_timestamp += 0.01;
