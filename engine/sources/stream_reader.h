@@ -79,7 +79,8 @@ class StreamReader {
 /// Makes frames of what a stream with one header brings. May be used by any thread.
 class StreamDecoder {
  public:
-  explicit StreamDecoder(StreamHeader header) : header_(std::move(header)), undistortion_(header_.camera.intrinsics, header_.camera.distortion) {}
+  explicit StreamDecoder(StreamHeader header)
+      : header_(std::move(header)), undistortion_(header_.camera.intrinsics, header_.camera.distortion) {}
 
   /// Throws InputError, which names the message, where an image is damaged or of another size.
   Frame decode(const StreamFrame& stored) const;

@@ -32,7 +32,7 @@ struct ViewerScene {
   std::vector<int> window;  ///< positions in `keyframes` that were optimised together last
   /// Pairs of positions in `keyframes` that are known to see one place, which the camera came back to.
   std::vector<std::pair<int, int>> loops;
-  SceneFrame frame;         ///< the newest, or the one that was chosen
+  SceneFrame frame;  ///< the newest, or the one that was chosen
   std::vector<FrameNumbers> numbers;
   std::string status;       ///< one line
   std::string waiting_for;  ///< one line: what is done while there is no map yet

@@ -83,8 +83,8 @@ std::string small_stream(const std::filesystem::path& colour, const std::filesys
 int main(int count, char** arguments) {
   if (count != 2) return 2;
   const std::filesystem::path root = arguments[1];
-  for (const char* reader :
-       {"map_ply", "map_spz", "mesh", "colour", "depth", "tiff", "mcap", "bag", "db3", "messages", "frame_stream"})
+  for (const char* reader : {"map_ply", "map_spz", "mesh", "colour", "depth", "tiff", "mcap", "bag", "db3",
+                             "messages", "frame_stream"})
     std::filesystem::create_directories(root / reader);
   const GaussianCloud cloud = small_cloud();
   write_map(root / "map_ply/binary", cloud, MapFormat::Ply);

@@ -66,9 +66,9 @@ void add_run(CLI::App& program, Action& action) {
   auto options = std::make_shared<RunOptions>();
   CLI::App* run =
       program.add_subcommand("run", "Tracks the camera and builds the map of a recorded sequence, or live");
-  auto* dataset =
-      run->add_option("--dataset", options->dataset,
-                      "Folder of the sequence (or a .sens, .mcap, .db3 or .bag file), or \"synthetic\" for the embedded one");
+  auto* dataset = run->add_option(
+      "--dataset", options->dataset,
+      "Folder of the sequence (or a .sens, .mcap, .db3 or .bag file), or \"synthetic\" for the embedded one");
   auto* live = run->add_option(
       "--live", options->live,
       "Frames as they come, instead of a dataset: - (standard input), unix:PATH or "
