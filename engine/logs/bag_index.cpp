@@ -3,8 +3,6 @@
 // chunks stand at the end.
 #include "engine/logs/bag_index.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <map>
 #include <vector>
@@ -57,7 +55,6 @@ class BagIndexer {
   const ByteFile& file_;
   IndexBuilder builder_;
   std::map<uint32_t, uint16_t> topics_;  ///< by connection
-  int damaged_chunks_ = 0;
 };
 
 void BagIndexer::connect(const BagFields& fields, std::string_view data) {
@@ -142,15 +139,7 @@ void BagIndexer::by_reading() {
   const uint64_t end = read_records();
   if (builder_.messages() == 0 && topics_.empty() && end < file_.size())
     throw InputError(file_.path(), "nothing in it can be read; it may be damaged, or cut off at once");
-  std::string lost;
-  if (damaged_chunks_ > 0) lost = fmt::format("{} damaged chunks are left out", damaged_chunks_);
-  if (end < file_.size()) {
-    lost += fmt::format("{}the last {} of {} bytes are damaged or cut off", lost.empty() ? "" : ", ",
-                        file_.size() - end, file_.size());
-  }
-  if (lost.empty()) lost = "it has no index, as where the recorder was stopped";
-  builder_.warn(
-      fmt::format("{}: {}; {} messages can be read", file_.path().string(), lost, builder_.messages()));
+  builder_.warn_of_losses(end, file_.size(), "it has no index, as where the recorder was stopped");
 }
 
 /// Goes from record to record; returns where it could not go on, or the size of the file.
@@ -176,14 +165,7 @@ void BagIndexer::read_record(const BagRecord& record, uint64_t at) {
   } else if (op == BagOp::Message) {
     add_message(fields, at, MessagePlace::kNoChunk);
   } else if (op == BagOp::Chunk) {
-    // A chunk that is damaged costs its messages alone: its record tells where the next begins.
-    const std::size_t before = builder_.messages();
-    try {
-      scan_chunk(unpack_bag_chunk(file_, record), at);
-    } catch (const InputError&) {
-      builder_.drop_from(before);
-      ++damaged_chunks_;
-    }
+    builder_.add_chunk([&] { scan_chunk(unpack_bag_chunk(file_, record), at); });
   }
 }
 

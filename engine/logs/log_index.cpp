@@ -1,5 +1,7 @@
 #include "engine/logs/log_index.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <tuple>
 #include <utility>
@@ -28,6 +30,17 @@ Serialisation serialisation_of(std::string_view encoding) {
 }
 
 }  // namespace
+
+void IndexBuilder::warn_of_losses(uint64_t end, uint64_t size, const std::string& otherwise) {
+  std::string lost;
+  if (damaged_chunks_ > 0) lost = fmt::format("{} damaged chunks are left out", damaged_chunks_);
+  if (end < size) {
+    lost += fmt::format("{}the last {} of {} bytes are damaged or cut off", lost.empty() ? "" : ", ",
+                        size - end, size);
+  }
+  if (lost.empty()) lost = otherwise;
+  if (!lost.empty()) warn(fmt::format("{}: {}; {} messages can be read", file_.string(), lost, messages()));
+}
 
 uint16_t IndexBuilder::topic(std::string_view name, std::string_view type, std::string_view encoding) {
   const std::string key = std::string(name) + '\n' + std::string(type) + '\n' + std::string(encoding);

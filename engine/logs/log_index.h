@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "engine/logs/message_log.h"
+#include "engine/types/error.h"
 
 namespace surefield {
 
@@ -23,6 +24,21 @@ class IndexBuilder {
   void add(const MessagePlace& place) { index_.messages.push_back(place); }
   void warn(const std::string& line) { index_.warnings.push_back(line); }
   std::size_t messages() const { return index_.messages.size(); }
+  /// Adds the messages of a chunk by scan(). Where it throws InputError, the chunk is damaged: that costs its
+  /// messages alone, which are taken away again, since its record tells where the next one begins.
+  template <typename Scan>
+  void add_chunk(Scan scan) {
+    const std::size_t before = messages();
+    try {
+      scan();
+    } catch (const InputError&) {
+      drop_from(before);
+      ++damaged_chunks_;
+    }
+  }
+  /// Warns of what a file lacks that was read from front to back, up to the byte `end` of `size`; of
+  /// `otherwise`, unless it is empty, where all was read.
+  void warn_of_losses(uint64_t end, uint64_t size, const std::string& otherwise);
   /// Takes the messages from the one of that number on away again.
   void drop_from(std::size_t first) { index_.messages.resize(first); }
   /// Puts them into the order in which they lie in the file.
@@ -35,6 +51,7 @@ class IndexBuilder {
   std::filesystem::path file_;
   LogIndex index_;
   std::map<std::string, uint16_t> numbers_;
+  int damaged_chunks_ = 0;
 };
 
 /// Sorts messages by their stamps; those of equal stamps keep their order.

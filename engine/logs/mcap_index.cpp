@@ -3,8 +3,6 @@
 // its messages are.
 #include "engine/logs/mcap_index.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <map>
 #include <optional>
@@ -54,7 +52,6 @@ class McapIndexer {
   void by_reading();
   uint64_t read_records();
   void read_record(McapOp op, uint64_t at, uint64_t length);
-  void read_chunk(uint64_t at);
 
   void define(McapOp op, std::string_view body);
   void add_message(std::string_view head, uint64_t at, uint32_t inner);
@@ -64,8 +61,7 @@ class McapIndexer {
   IndexBuilder builder_;
   std::map<uint16_t, std::string> schemas_;
   std::map<uint16_t, uint16_t> channels_;  ///< the topic of each
-  int damaged_chunks_ = 0;
-  bool ended_ = false;  ///< whether the records end as they should
+  bool ended_ = false;                     ///< whether the records end as they should
 };
 
 /// Takes note of a schema or a channel.
@@ -179,17 +175,8 @@ void McapIndexer::by_reading() {
   const uint64_t end = read_records();
   if (builder_.messages() == 0 && channels_.empty() && end < file_.size())
     throw InputError(file_.path(), "nothing in it can be read; it may be damaged, or cut off at once");
-  std::string lost;
-  if (damaged_chunks_ > 0) lost = fmt::format("{} damaged chunks are left out", damaged_chunks_);
-  if (end < file_.size()) {
-    lost += fmt::format("{}the last {} of {} bytes are damaged or cut off", lost.empty() ? "" : ", ",
-                        file_.size() - end, file_.size());
-  } else if (end == file_.size() && lost.empty() && !ended_) {
-    lost = "it has no end, as where the recorder was stopped";
-  }
-  if (!lost.empty())
-    builder_.warn(
-        fmt::format("{}: {}; {} messages can be read", file_.path().string(), lost, builder_.messages()));
+  builder_.warn_of_losses(end, file_.size(),
+                          ended_ ? "" : "it has no end, as where the recorder was stopped");
 }
 
 /// Goes from record to record; returns where it could not go on, or the size of the file.
@@ -220,24 +207,13 @@ uint64_t McapIndexer::read_records() {
 void McapIndexer::read_record(McapOp op, uint64_t at, uint64_t length) {
   const uint64_t body = at + kMcapRecordHead;
   if (op == McapOp::Chunk) {
-    read_chunk(at);
+    builder_.add_chunk([&] { scan_chunk(unpack_chunk(file_, read_chunk_head(file_, at)), at); });
   } else if (op == McapOp::Message) {
     if (length < kMcapMessageHead) throw InputError(file_.path(), "is damaged: a message is too short");
     add_message(file_.read(body, kMcapMessageHead), at, MessagePlace::kNoChunk);
   } else if (op == McapOp::Schema || op == McapOp::Channel) {
     if (length > kLargestDefinition) throw InputError(file_.path(), "is damaged: a definition is too large");
     define(op, file_.read(body, length));
-  }
-}
-
-/// A chunk that is damaged costs its messages alone: its record tells where the next begins.
-void McapIndexer::read_chunk(uint64_t at) {
-  const std::size_t before = builder_.messages();
-  try {
-    scan_chunk(unpack_chunk(file_, read_chunk_head(file_, at)), at);
-  } catch (const InputError&) {
-    builder_.drop_from(before);
-    ++damaged_chunks_;
   }
 }
 
